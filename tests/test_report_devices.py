@@ -23,7 +23,7 @@ VARIANTS = ("ray_march", "newton[EPSILON=0.001]", "newton[EPSILON=1e-06]")
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
-    """Merge two machines: on the second, `newton` with the larger EPSILON is slow, and a row of the other misses more."""
+    """Merge two machines: on the second, `newton` with the larger EPSILON is slow, and the other misses more rays."""
     folder = tmp_path_factory.mktemp("machines")
     runs = []
     for machine, driver in (("lab1", "1"), ("lab2", "2")):

@@ -271,7 +271,7 @@ def _report(options: argparse.Namespace) -> int:
             tell_step = stack.enter_context(console.working())
             if changed:
                 tell_step(f"comparing {runs[0]} with {runs[1]}")
-                made = compare.build(*runs, options.output)
+                made = compare.build(runs[0], runs[1], options.output)
             elif len(runs) == 1:
                 tell_step(f"reading {runs[0]}")
                 made = report.build(runs[0], options.output, **about, tell=tell_step)

@@ -80,12 +80,12 @@ def choose(cells: Iterable[Cell], left: list[Left]) -> Chosen:
     here = {(cell.source, cell.told): found.names[of[id(cell)]] for cell in fitting if id(cell) in of}
     named = {*ran, *skipped}
     for cell in fitting:
-        told = here.get((cell.source, cell.told))
+        device = here.get((cell.source, cell.told))
         if cell.made is None:  # it is told as the run's other cells on its device, if there are any
-            taken = (cell.place, told) in named if told else (cell.place, cell.own) in there
-            if not taken and (cell.place, told or cell.own) not in named:
-                named.add((cell.place, told or cell.own))
-                kept[id(cell)] = told or cell.told
+            taken = (cell.place, device) in named if device else (cell.place, cell.own) in there
+            if not taken and (cell.place, device or cell.own) not in named:
+                named.add((cell.place, device or cell.own))
+                kept[id(cell)] = device or cell.told
     order: dict[tuple[str, str], int] = {}  # of the first that names a cell, though another run's row may be kept
     for number, cell in enumerate(fitting):
         order.setdefault((cell.place, kept.get(id(cell)) or here.get((cell.source, cell.told), cell.told)), number)

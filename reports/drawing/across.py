@@ -90,12 +90,12 @@ def _lines(
     axes: Any, rows: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]
 ) -> list[tuple[float, float, str, str]]:
     """Draw a line for each method; return where each ends, its name and its colour."""
-    ends = []
+    ends: list[tuple[float, float, str, str]] = []
     for method, own in rows.groupby("method", sort=False):
         speedups = dict(zip(own["device"], own["speedup"], strict=True))
         points = [(at, float(speedups[device])) for at, device in enumerate(devices) if device in speedups]
         mark = marks[str(method)]
         look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4, "mew": 0.8, "lw": 1.1}
         axes.plot(*zip(*points, strict=True), gid=series(str(method), *own["variant"]), zorder=3, **look)
-        ends.append((*points[-1], str(own["method_label"].iloc[0]), mark.color))
+        ends.append((float(points[-1][0]), points[-1][1], str(own["method_label"].iloc[0]), mark.color))
     return ends
