@@ -53,6 +53,7 @@ LEAST = {  # what a command cannot be parsed without
     "kernel": ["--surface", "torus", "--method", "newton", "-o", "x"],
     "history": ["quick"],
     "new": ["method", "mine"],
+    "worker": ["lab1:8786"],
 }
 
 
