@@ -53,6 +53,7 @@ LEAST = {  # what a command cannot be parsed without
     "kernel": ["--surface", "torus", "--method", "newton", "-o", "x"],
     "history": ["quick"],
     "new": ["method", "mine"],
+    "worker": ["lab1:8786"],
 }
 
 
@@ -218,10 +219,11 @@ NUMBERS = {
     ("compile",): ("--timeout",),
     KERNEL: ("--timeout",),
     ("verify", "none"): ("--sample", "--seed"),
+    ("worker", "lab1:8786"): ("--cores",),
     RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
 }
 LISTS = {("report", "--figures"), ("report", "--tables")}  # of names: test_for_papers holds them against the known ones
-MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed", "--sample")
+MAY_BE_NOTHING = ("--cores", "--t-min", "--fps", "--seconds", "--seed", "--sample")
 
 
 def test_every_option_that_is_a_number_is_held_against_its_limits():

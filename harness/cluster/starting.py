@@ -97,8 +97,9 @@ def _local(count: int | None, wanted: Collection[str], tell: Tell) -> Iterator[C
     """Run a scheduler in this process, and workers of this machine: one for each device, and `count` for its cores."""
     from dask.distributed import LocalCluster
 
-    offered = [info.name for info in discover_devices(wanted) if not info.problem]
-    names = [name for name in offered if name in wanted or not set(wanted).isdisjoint(ANY)]
+    offered = [info.name for info in discover_devices(name.partition("@")[0] for name in wanted) if not info.problem]
+    plain = {name.partition("@")[0] for name in wanted}
+    names = [name for name in offered if name in plain or not plain.isdisjoint(ANY)]
     workers = (cores() or 1) if count is None else count
     options: dict[str, Any] = {"n_workers": 0, "dashboard_address": None, "host": "127.0.0.1"}
     with LocalCluster(**options) as cluster:  # type: ignore[no-untyped-call]

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from tests.campaigns import frame, processes
 from tests.campaigns.frame import Campaign, Fell, Place
-from tests.campaigns.processes import Command, done
+from tests.campaigns.processes import Command
 
 EACH = 11
 CORES = 1
@@ -74,7 +74,9 @@ class _Scheduler:
 def prepare(shared: Path) -> None:
     """Run the config without a cluster, once for all trials."""
     (shared / "small.toml").write_text(CONFIG)
-    done(shared, "run", "small.toml")
+    code, told = Command(shared, ("run", "small.toml")).ended(within=1500.0)
+    if code != 0:
+        raise Fell(f"the run without a cluster ended with {code}: {told[-1500:]}")
 
 
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
@@ -120,7 +122,7 @@ def _disturb(
             outcomes[f"{what} killed"] += _kill(dice, what, workers, scheduler)
             after = time.monotonic() + dice.uniform(*PAUSE)
         time.sleep(0.1)
-    code, told = command.ended()
+    code, told = command.ended(within=1500.0)
     if code != 0:
         raise Fell(f"`run --cluster` ended with {code}: {told[-2500:]}")
     _seen(own / runs, finished)

@@ -1,0 +1,127 @@
+"""`--cluster` and `firsthit worker` read what they are given, and need no more than they say."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from importlib.metadata import distribution
+from pathlib import Path
+
+import pytest
+
+from harness import ROOT
+from harness.cli import main
+from harness.cluster import slurm
+from harness.contract import FirsthitError
+from tests.test_light import _python
+from tests.test_light import environment as environment
+
+WHOLE = 'jobs = 2\nwalltime = "02:00:00"\ncores = 8\nmemory = "32GB"\n'
+
+
+@pytest.mark.parametrize(
+    ("where", "words"),
+    [
+        ("nowhere", "--cluster 'nowhere': write HOST:PORT of a Dask scheduler, as lab1:8786, or local[:N]"),
+        ("local:many", "write local:N, where N cores"),
+        ("missing.toml", "cannot read missing.toml: No such file"),
+    ],
+)
+def test_a_cluster_that_is_none_is_told_in_a_line(
+    where: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "quick", "--cluster", where]) == 2
+    told = capsys.readouterr().err
+    assert words in told and "Traceback" not in told
+    assert not (tmp_path / "runs").exists(), "nothing was begun"
+
+
+def test_a_scheduler_that_does_not_answer_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("harness.cluster.starting.CONNECT_SECONDS", 0.2)
+    assert main(["run", "quick", "--cluster", "127.0.0.1:9"]) == 3
+    assert "no Dask scheduler answers at 127.0.0.1:9" in capsys.readouterr().err
+
+
+def test_a_missing_dask_is_told(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *p: None if name == "distributed" else find(name, *p))
+    for words in (["worker", "lab1:8786"], ["run", "quick", "--cluster", "local"]):
+        assert main(words) == 3
+        assert "needs the package distributed: pip install 'firsthit[cluster]'" in capsys.readouterr().err
+
+
+def test_a_run_without_a_cluster_imports_no_dask() -> None:
+    code = "import sys, harness.cli, harness.commands.experiment, harness.running.run, firsthit\n"
+    code += "sys.exit(any(name in sys.modules for name in ('dask', 'distributed', 'harness.cluster')))"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=100, check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("jobs = 2", "walltime, cores, memory missing; a whole file is: jobs = 4"),
+        (WHOLE + "cpus = 3", "unknown key 'cpus'; known: jobs, cores"),
+        (WHOLE.replace("2\n", "0\n", 1), "jobs = 0 is not what it must be"),
+        (WHOLE + "devices = [1]", "devices = [1] is not what it must be"),
+        (WHOLE + "wait = nan", "wait = nan is not what it must be"),
+        ("jobs =", "Invalid value"),
+    ],
+)
+def test_a_file_for_slurm_that_means_nothing_is_told(text: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / "slurm.toml"
+    path.write_text(text)
+    with pytest.raises(FirsthitError) as raised:
+        slurm.read(path)
+    assert words in str(raised.value) and str(path) in str(raised.value)
+
+
+def test_a_job_of_slurm_runs_the_worker_with_what_the_file_says(tmp_path: Path) -> None:
+    path = tmp_path / "slurm.toml"
+    path.write_text(WHOLE + 'queue = "gpu"\ndevices = ["opencl:nvidia"]\nprologue = ["module load cuda"]\n')
+    options = slurm.options(slurm.read(path))
+    assert options["worker_extra_args"] == ["--cores", "8", "--device", "opencl:nvidia"]
+    assert options["job_script_prologue"] == ["module load cuda"] and "account" not in options
+    jobs = pytest.importorskip("dask_jobqueue.slurm", reason="dask-jobqueue is not installed")
+    own = {name: value for name, value in options.items() if name != "scheduler_options"}
+    script = jobs.SLURMJob(scheduler="tcp://lab1:8786", name="job-1", **own).job_script()
+    assert "#SBATCH -p gpu" in script and "module load cuda" in script
+    line = next(line for line in script.splitlines() if "harness.cli worker" in line)
+    parsed = _parsed(line.split("harness.cli ")[1].split())
+    assert parsed.address == "tcp://lab1:8786" and parsed.cores == 8 and parsed.device == ["opencl:nvidia"]
+
+
+def _parsed(words: list[str]) -> object:
+    from harness.cli import build_parser
+
+    return build_parser(words).parse_args(words)
+
+
+def _needed(name: str, found: set[str]) -> set[str]:
+    """Return a package, and all that it cannot be installed without."""
+    from packaging.requirements import Requirement
+
+    if name not in found:
+        found.add(name)
+        for text in distribution(name).requires or []:
+            requirement = Requirement(text)
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                _needed(requirement.name, found)
+    return found
+
+
+def test_a_worker_needs_the_engine_and_no_more(environment: dict[str, str]) -> None:
+    folder = Path(environment["PYTHONPATH"])
+    for name in _needed("distributed", set()):
+        for file in distribution(name).files or []:
+            link = folder / file.parts[0]
+            if file.parts[0] not in ("..", "__pycache__") and not link.exists():
+                link.symlink_to(str(distribution(name).locate_file(file.parts[0])))
+    code = "from harness.cluster import holder, serving, supervisor, starting\nfrom distributed import Nanny, Worker\n"
+    code += "assert holder.announce({'cores': 1.0})['code']\nprint('ready')"
+    result = _python(environment, "-c", code)
+    assert result.stdout == "ready\n", result.stderr
