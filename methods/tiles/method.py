@@ -150,6 +150,9 @@ METHOD = Method(
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
         Parameter("HALVINGS", 6, "halvings of a fitted piece before a tile or a block is open"),
+        Parameter(
+            "BEHIND", 4, "halvings of what is behind a tile's open piece, to tell that it is empty; 0: no search"
+        ),
         Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over that of the piece just decided"),
         Parameter("REFITS", 1, "how often a tile that is open is fitted anew before its quarters are"),
         Parameter("PACKET_FITS", 4, "fits of a block of open pixels before those still open are cast by themselves"),

@@ -17,6 +17,7 @@ void cast_packets(Work work, Frame frame) {
         int record = (OPEN_RECORD + SINGLE_RECORD) * list + OPEN_RECORD * slot;
         real start = entry_at(work, record);
         real stop = entry_at(work, record + 1);
+        real last = entry_at(work, record + 3);  // no ray has a root behind this depth
         int i0 = (cell % across) * work.tile + 4 * (block % blocks);
         int j0 = (cell / across) * work.tile + 4 * (block / blocks);
         if (i0 >= work.size || j0 >= work.size) continue;
@@ -40,7 +41,7 @@ void cast_packets(Work work, Frame frame) {
         wide found_width = wide(0.0);
         wide sign = wide(1.0);
         start = max(start, least(CHOOSE(waiting, own_lo, wide(REAL_INFINITY))) - slack);
-        real end = most(CHOOSE(waiting, own_hi, wide(-REAL_INFINITY)));
+        real end = min(most(CHOOSE(waiting, own_hi, wide(-REAL_INFINITY))), last);
         stop = min(stop, end);
         if (stop <= start) stop = end;
         Poly c;
@@ -147,8 +148,7 @@ void cast_packets(Work work, Frame frame) {
             left = EITHER(left, again);
         }
         answer_block(work, i0, j0, rays.shift, t, hit, 2 * LEVELS, evaluations);
-        // the sign of f where the next stage begins has to be certain, so it begins a piece before the open one
-        open_from = open_from - CHOOSE(opened, wide(slack + open_width), wide(slack));
+        open_from = open_from - slack;
         if (any_lane(left)) leave_pixels(work, i0, j0, left, open_from);
     }
     add_to(work, 4 * work.level + 2, all_fits);
