@@ -204,7 +204,6 @@ void isolate_tiles(Work work, Frame frame) {
         int cell_y = taken / across;
         real start = -REAL_INFINITY;
         real stop = REAL_INFINITY;
-        real last = REAL_INFINITY;  // no ray has a root behind this depth
         int spent = 0;
         if (!first) {
             int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
@@ -214,7 +213,6 @@ void isolate_tiles(Work work, Frame frame) {
             start = entry_at(work, record);
             stop = entry_at(work, record + 1);
             spent = int(entry_at(work, record + 2));
-            last = entry_at(work, record + 3);
         }
         if (cell_x >= across || cell_y >= across) continue;
         int cell = cell_y * across + cell_x;
@@ -250,7 +248,6 @@ void isolate_tiles(Work work, Frame frame) {
             KEEP_NUMBER(weights, remainder_weight(work, tile))
         }
         start = max(start, max(near, -frame.middle));
-        end = min(end, last);
         stop = min(stop, end);
         if (stop <= start) stop = end;
         int verdict = start < end ? SEARCHING : EMPTY;
@@ -264,9 +261,6 @@ void isolate_tiles(Work work, Frame frame) {
         bool negative = false;
         real open_start = start;
         real open_width = 0.0;
-        bool behind = false;  // a piece is open, and what is behind it is searched
-        real kept_start = 0.0;
-        real kept_stop = 0.0;
         Poly c;
         Poly s;
         Net net;
@@ -329,7 +323,7 @@ void isolate_tiles(Work work, Frame frame) {
                             if (falls) inner = SINGLE;
                         }
                         real shortest = leans ? 0.25 * least_width : least_width;
-                        bool deepest = depth == (behind ? BEHIND : HALVINGS) || reach < shortest * real(1 << depth);
+                        bool deepest = depth == HALVINGS || reach < shortest * real(1 << depth);
                         if (inner == SEARCHING && deepest) inner = OPEN;
                         if (inner == SEARCHING) {
                             HALVE_BUNDLE(bundle, far)
@@ -344,8 +338,6 @@ void isolate_tiles(Work work, Frame frame) {
                 start = stop;
                 stop = end;
                 if (!(start < end)) verdict = EMPTY;
-            } else if (behind) {
-                verdict = OPEN;
             } else {
                 real width = reach / real(1 << depth);
                 start = start + width * real(path - (1 << depth));
@@ -382,20 +374,6 @@ void isolate_tiles(Work work, Frame frame) {
                     }
                 }
             }
-            if (verdict == OPEN && !behind && BEHIND > 0) {
-                behind = true;
-                kept_start = start;
-                kept_stop = stop;
-                start = stop;
-                stop = end;
-                verdict = start < end ? SEARCHING : EMPTY;
-            }
-        }
-        if (behind) {
-            last = verdict == EMPTY ? kept_stop : REAL_INFINITY;
-            verdict = OPEN;
-            start = kept_start;
-            stop = kept_stop;
         }
         if (verdict == SINGLE) spent += 16 * (N + 1);
         int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
@@ -431,11 +409,10 @@ void isolate_tiles(Work work, Frame frame) {
                 // no ray has a root before this depth
                 real share = fabs(lean.across) + fabs(lean.down);
                 start = max(open_start, (frame.middle + start) / (1.0 + share) - frame.middle);
-                last = (frame.middle + last) * (1.0 + share) - frame.middle;
                 stop = start + open_width;
             }
             real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
-            if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), last + slack, spent / 4);
+            if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
         }
     }
     if (LEADS) {

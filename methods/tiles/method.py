@@ -137,15 +137,15 @@ METHOD = Method(
         Parameter(
             "UNCERTAIN",
             8.0,
-            "how far f at FIRST_PAIRS may be from a line, in unit roundoffs of the domain's diameter, before the mean is "
-            "over PAIRS",
+            "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the domain's "
+            "diameter",
         ),
         Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
         Parameter(
             "APART",
             2.0,
-            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter, or of the length "
-            "in the domain of a ray that is cast by itself",
+            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel that "
+            "is cast by itself, of its ray's length in the domain",
         ),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),

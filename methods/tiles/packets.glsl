@@ -17,7 +17,6 @@ void cast_packets(Work work, Frame frame) {
         int record = (OPEN_RECORD + SINGLE_RECORD) * list + OPEN_RECORD * slot;
         real start = entry_at(work, record);
         real stop = entry_at(work, record + 1);
-        real last = entry_at(work, record + 3);  // no ray has a root behind this depth
         int i0 = (cell % across) * work.tile + 4 * (block % blocks);
         int j0 = (cell / across) * work.tile + 4 * (block / blocks);
         if (i0 >= work.size || j0 >= work.size) continue;
@@ -41,7 +40,7 @@ void cast_packets(Work work, Frame frame) {
         wide found_width = wide(0.0);
         wide sign = wide(1.0);
         start = max(start, least(CHOOSE(waiting, own_lo, wide(REAL_INFINITY))) - slack);
-        real end = min(most(CHOOSE(waiting, own_hi, wide(-REAL_INFINITY))), last);
+        real end = most(CHOOSE(waiting, own_hi, wide(-REAL_INFINITY)));
         stop = min(stop, end);
         if (stop <= start) stop = end;
         Poly c;

@@ -29,8 +29,8 @@ int singles_at(int size, int tile) {
     return (OPEN_RECORD + SINGLE_RECORD) * tiles_before(size, tile) + OPEN_RECORD * across * across;
 }
 
-// Puts a tile on its level's list of open ones: its first open piece, and the depth behind which no ray has a root.
-void list_open(Work work, int cell, real start, real stop, real last, int spent) {
+// Puts a tile on its level's list of open ones.
+void list_open(Work work, int cell, real start, real stop, int spent) {
     int slot = next_in(work, 4 * work.level);
     int before = tiles_before(work.size, work.tile);
     int record = (OPEN_RECORD + SINGLE_RECORD) * before + OPEN_RECORD * slot;
@@ -38,7 +38,6 @@ void list_open(Work work, int cell, real start, real stop, real last, int spent)
     enter(work, record, start);
     enter(work, record + 1, stop);
     enter(work, record + 2, real(spent));
-    enter(work, record + 3, last);
 }
 
 // Answers one pixel, which hits at shift + t or misses. A check keeps t in two parts, and so its last bits.
