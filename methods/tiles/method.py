@@ -68,6 +68,16 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
       passed, before a tile is open
     planes that lean as the surface does                    16-ball: 22 to 18 ms; the octic's open pixels: 28   yes
       to 21 % and no faster
+    no look-up of bounds up to degree 4, and coarser        frames of the nine: 0.93 times the time; isolation  yes
+      tables first up to degree 8 (this row and the next    alone from 0.56 (clebsch) to 0.7 (chmutov)
+      three: interleaved runs on a busy machine)
+    coarser tables first at every degree                    16-ball's isolation: 1.15 times the time            no
+    the mean of f over 8 pairs at uncertain roots, and      the frames: 1.03 times the time; 99.9 % of the      yes
+      f's slope there held against the interpolated one     errors are below 0.84 times those before
+    what is behind a tile's open piece is searched, so      octic: packets 0.96 times the time, isolation 1.1   no
+      that packets may end there                            times; the frames: 1.02
+    pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
+                                                            0.5 times
 """
 
 from collections.abc import Mapping
@@ -137,22 +147,19 @@ METHOD = Method(
         Parameter(
             "UNCERTAIN",
             8.0,
-            "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the domain's "
-            "diameter",
+            "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the "
+            "domain's diameter",
         ),
         Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
         Parameter(
             "APART",
             2.0,
-            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel that "
-            "is cast by itself, of its ray's length in the domain",
+            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel "
+            "that is cast by itself, of its ray's length in the domain",
         ),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
         Parameter("HALVINGS", 6, "halvings of a fitted piece before a tile or a block is open"),
-        Parameter(
-            "BEHIND", 4, "halvings of what is behind a tile's open piece, to tell that it is empty; 0: no search"
-        ),
         Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over that of the piece just decided"),
         Parameter("REFITS", 1, "how often a tile that is open is fitted anew before its quarters are"),
         Parameter("PACKET_FITS", 4, "fits of a block of open pixels before those still open are cast by themselves"),
