@@ -211,6 +211,6 @@ def test_the_tables_of_a_pyramid_follow_each_other_from_the_finest_to_the_coarse
         first += side**3
         if finer is not None:  # a coarser cell with its surroundings holds its finer cells with theirs
             children = finer.reshape(side, 2, side, 2, side, 2, 16).max(axis=(1, 3, 5))
-            assert (bounds >= children).all() and (bounds < 100.0 * children.max(axis=(0, 1, 2))).all()
+            assert (bounds >= children).all() and (bounds <= 100.0 * children.max(axis=(0, 1, 2))).all()
         finer = bounds
     assert first == len(rows)

@@ -28,7 +28,7 @@ SEEN = View("v", azimuth=30, elevation=35)
 
 
 def window(surface, aside, pixels=PIXELS, view=SEEN, above=0.0):
-    """The camera of a window that lies `aside` and `above` of the image's half width to the right of its middle and up."""
+    """The camera of a window, `aside` and `above` of the image's half width to the right of its middle and up."""
     eye, forward, right, up = camera_for(view, surface).astype(float).reshape(4, 3)
     part = SIZE / pixels
     return np.concatenate([eye, forward + aside * right + above * up, part * right, part * up]).astype(np.float32)

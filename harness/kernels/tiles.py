@@ -23,7 +23,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
-from harness.kernels.fourths import GRID, NODES, TABLES, POWERS, half_side, interpolation, remainder_factors
+from harness.kernels.fourths import GRID, NODES, POWERS, TABLES, half_side, interpolation, remainder_factors
 from harness.kernels.sections import (
     Lanes,
     TileStage,

@@ -183,7 +183,7 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     // leaves that share of itself which is left of f
     yes short_step = AT_MOST(fabs(step), wide(longest));
     wide left = fabs(step);
-    yes sloped = NOT(NOWHERE);  // g is about the slope that f's values have
+    yes sloped = NOT(NOWHERE);  // steps by g are not far too short for the slope that f's values have
     real rough = UNCERTAIN * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);
     for (int turn = 0; turn < LAST_STEPS && FIRST_PAIRS > 0; turn++) {
         if (turn > 0 && !any_lane(BOTH(looking, MORE(left, wide(tolerance))))) break;
@@ -207,7 +207,7 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
             seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
         }
         evaluations += 2 * pairs;
-        sloped = BOTH(MORE(rise * g, wide(0.5 * apart)), LESS(rise * g, wide(2.0 * apart)));
+        sloped = MORE(rise * g, wide(0.0625 * apart));
         wide mean = sum * (1.0 / real(2 * pairs));
         // f was 0 at this place by the step before: after a short one, that is one point more
         yes known = AT_MOST(fabs(step), wide(0.25 * clear));

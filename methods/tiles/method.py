@@ -71,6 +71,16 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
     tiles of 32 first, for four samples a pixel             sextic 14.2 to 14.4 ms, decic 45.5 to 44.3          no
     planes that lean as the surface does                    16-ball: 22 to 18 ms; the octic's open pixels: 28   yes
       to 21 % and no faster
+    no look-up of bounds up to degree 4, and coarser        frames of the nine: 0.93 times the time; isolation  yes
+      tables first up to degree 8 (this row and the next    alone from 0.56 (clebsch) to 0.7 (chmutov)
+      three: interleaved runs on a busy machine)
+    coarser tables first at every degree                    16-ball's isolation: 1.15 times the time            no
+    the mean of f over 8 pairs at uncertain roots, and      the frames: 1.03 times the time; 99.9 % of the      yes
+      f's slope there held against the interpolated one     errors are below 0.84 times those before
+    what is behind a tile's open piece is searched, so      octic: packets 0.96 times the time, isolation 1.1   no
+      that packets may end there                            times; the frames: 1.02
+    pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
+                                                            0.5 times
 """
 
 from collections.abc import Mapping
@@ -140,15 +150,15 @@ METHOD = Method(
         Parameter(
             "UNCERTAIN",
             8.0,
-            "how far f at FIRST_PAIRS may be from a line, in unit roundoffs of the domain's diameter, before the mean is "
-            "over PAIRS",
+            "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the "
+            "domain's diameter",
         ),
         Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
         Parameter(
             "APART",
             2.0,
-            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter, or of the length "
-            "in the domain of a ray that is cast by itself",
+            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel "
+            "that is cast by itself, of its ray's length in the domain",
         ),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),

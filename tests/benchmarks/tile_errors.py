@@ -1,8 +1,8 @@
 """Compare errors of tiles with bernstein's over whole frames: `python -m tests.benchmarks.tile_errors`.
 
-Each row is a surface of the catalog that tiles accepts, in one of three views. All rays of a frame are cast by tiles and
-by bernstein in float32, and by bernstein in float64, which tells their errors. Only rays count on which all three hit
-and whose error is under MARGIN: a larger one belongs to another root.
+Each row is a surface of the catalog that tiles accepts, in one of three views. All rays of a frame are cast by tiles
+and by bernstein in float32, and by bernstein in float64, which tells their errors. Only rays count on which all three
+hit and whose error is under MARGIN: a larger one belongs to another root.
 
 Columns: rays that count; the 99.9th percentile and the largest of the errors, in domain radii, of tiles and of
 bernstein; both of tiles over those of bernstein; the stage that answered the ray with tiles' largest error.
