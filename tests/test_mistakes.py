@@ -192,6 +192,28 @@ def test_of_a_very_long_line_the_part_around_the_caret_is_shown():
     assert len(text) < 200 and text[len(caret) - 1] == "q"
 
 
+STAGE = "void finish_tiles(Work work, Frame frame) {\n    real h = STEPZ;\n}\n"
+
+
+def _staged(stage: str) -> Program:
+    own = Section("mine/kernel.glsl", "real a() { return STEPS; }\n"), Section("mine/finish.glsl", stage)
+    return Program("cl", "float32", "finish", (AHEAD, KNOBS, *own, Section("glsl/finish.cl", "\nfinish_tiles(w, f);")))
+
+
+@pytest.mark.parametrize(
+    ("stage", "line", "told", "advice"),
+    [
+        (STAGE, 10, "2", "did you mean 'STEPS'?"),
+        (STAGE.replace("}", ""), 14, "1", "write the missing '}'"),
+        (STAGE.replace("finish_", "finnish_"), 14, "1", "define `void finish_tiles(Work work, Frame frame) { … }`"),
+    ],
+)
+def test_a_mistake_in_the_file_of_a_stage_is_told_there(stage, line, told, advice):
+    error = f"1:{line}:5: error: use of undeclared identifier 'STEPZ'"
+    (found,) = complaints_in(explained(_staged(stage), error))
+    assert found.place.startswith(f"mine/finish.glsl:{told}") and advice in found.advice
+
+
 def test_what_is_of_no_line_is_no_complaint_of_the_first_file():
     log = "1:0:0: error: function `first_hit' has static recursion"
     assert "prelude" not in explained(_program(), log) and "static recursion" in explained(_program(), log)

@@ -52,3 +52,12 @@ def test_every_form_of_the_lanes_answers_as_each_ray_alone(device, name, precisi
         assert 0.4 < shares[2:4].sum() < 0.8, (lanes, shares)  # single
         assert shares[4:].sum() < 0.12, (lanes, shares)
         assert (shares[4] == 0) == (lanes == "own"), (lanes, shares)
+
+
+def test_a_stage_is_made_of_the_kernel_and_of_its_own_file_and_of_no_other_stages():
+    plugin = find_methods().get("tiles")
+    given = plugin.method, plugin.folder, plugin.variant({}), surfaces.get("torus"), "float32", "cl"
+    for stage in ("isolate", "finish", "packets"):
+        program = method_program(*given, stage)
+        own = [section.origin for section in program.sections if section.origin.startswith("methods/tiles/")]
+        assert own == ["methods/tiles/kernel.glsl", f"methods/tiles/{stage}.glsl"]

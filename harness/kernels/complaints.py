@@ -20,7 +20,7 @@ from pathlib import Path
 from harness.contract import Program, Section
 from surfaces.words import suggestion
 
-KERNEL = "kernel.glsl"  # the last part of the origin of a method's own text
+KERNEL = "kernel.glsl"  # the last part of the origin of a method's own text; stages of tiles may stand beside it
 LIBRARIES = Path(__file__).parent / "glsl" / "lib"
 MOST = 6  # complaints of one program; what follows them is mostly their consequence
 ENTRIES = {  # what a method's kernel must define, by what its program is started as
@@ -109,16 +109,22 @@ def explained(program: Program, log: str) -> str:
     If a log is of no known form, all its lines are returned but for drivers' talk.
     """
     found = list(_errors(program, log))
-    own = [complaint for complaint in found if complaint.file.endswith(KERNEL)]
-    kernel = next((section for section in program.sections if section.origin.endswith(KERNEL)), None)
-    if kernel is not None and not own:
-        own = _blamed(program, kernel, found)
+    kernels = _kernels(program)
+    own = [complaint for complaint in found if complaint.file in {section.origin for section in kernels}]
+    if kernels and not own:
+        own = _blamed(program, kernels, found)
     if not found:
         return "\n".join(line for line in log.splitlines() if not TALK.match(line.strip())).strip() or log.strip()
     told = _first_of_each(own or found)
-    if kernel is not None:
-        told[0] = replace(told[0], advice=told[0].advice or _advice(program, kernel, told, log))
+    if kernels:
+        told[0] = replace(told[0], advice=told[0].advice or _advice(program, kernels, told, log))
     return "\n".join(map(str, told[:MOST]))
+
+
+def _kernels(program: Program) -> list[Section]:
+    """Return the sections that are the method's own files: its kernel, and those of the same folder."""
+    folders = [s.origin.removesuffix(KERNEL) for s in program.sections if s.origin.endswith(KERNEL)]
+    return [s for s in program.sections if any(s.origin.rpartition("/")[0] + "/" == folder for folder in folders)]
 
 
 def _errors(program: Program, log: str) -> Iterator[Complaint]:
@@ -183,29 +189,38 @@ def _code(section: Section) -> str:
     return re.sub(r"//[^\n]*|/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), section.text, flags=re.DOTALL)
 
 
-def _blamed(program: Program, kernel: Section, found: Sequence[Complaint]) -> list[Complaint]:
+def _blamed(program: Program, kernels: Sequence[Section], found: Sequence[Complaint]) -> list[Complaint]:
     """Return the complaint that is the kernel's, where compilers stumbled behind it; none where that cannot be told."""
-    code, wanted = _code(kernel), ENTRIES.get(program.entry, "")
+    wanted = ENTRIES.get(program.entry, "")
     name = wanted.partition("(")[0].rpartition(" ")[2]
-    open_lines: list[int] = []
+    for kernel in kernels:
+        if line := _unclosed(_code(kernel)):
+            return [_at(kernel, line, f"the '{{' of line {line} is not closed", "write the missing '}'")]
+    defined = {
+        match[1]: (kernel, code.count("\n", 0, match.start(1)) + 1)
+        for kernel, code in ((kernel, _code(kernel)) for kernel in kernels)
+        for match in _DEFINED.finditer(code)
+    }
+    if name and name not in defined:
+        near = suggestion(name, defined, otherwise=" ")
+        at = next((at for other, at in defined.items() if repr(other) in near), (kernels[-1], 1))
+        words = f"the kernel does not define {name}" + (f"; {near}" if near.strip() else "")
+        return [_at(*at, words, f"define `{wanted} {{ … }}`")]
+    if name and any(re.search(rf"\b{name}\s*\(", line) for complaint in found for line in complaint.shown[:1]):
+        return [_at(*defined[name], f"{name} is called otherwise: {found[0].words}", f"define it as `{wanted}`")]
+    return []
+
+
+def _unclosed(code: str) -> int | None:
+    """Return the line of the last '{' that no '}' closes; None if all are closed."""
+    lines: list[int] = []
     for number, line in enumerate(code.split("\n"), 1):
         for sign in re.findall(r"[{}]", line):
             if sign == "{":
-                open_lines.append(number)
-            elif open_lines:
-                open_lines.pop()
-    if open_lines:
-        words, advice = f"the '{{' of line {open_lines[-1]} is not closed", "write the missing '}'"
-        return [_at(kernel, open_lines[-1], words, advice)]
-    defined = {match[1]: code.count("\n", 0, match.start(1)) + 1 for match in _DEFINED.finditer(code)}
-    if name and name not in defined:
-        near = suggestion(name, defined, otherwise=" ")
-        at = next((at for other, at in defined.items() if repr(other) in near), 1)
-        words = f"the kernel does not define {name}" + (f"; {near}" if near.strip() else "")
-        return [_at(kernel, at, words, f"define `{wanted} {{ … }}`")]
-    if name and any(re.search(rf"\b{name}\s*\(", line) for complaint in found for line in complaint.shown[:1]):
-        return [_at(kernel, defined[name], f"{name} is called otherwise: {found[0].words}", f"define it as `{wanted}`")]
-    return []
+                lines.append(number)
+            elif lines:
+                lines.pop()
+    return lines[-1] if lines else None
 
 
 def recursion(kernel: Section) -> Complaint | None:
@@ -241,21 +256,22 @@ def _at(kernel: Section, line: int, words: str, advice: str) -> Complaint:
     return Complaint(kernel.origin, line, None, words, _shown(kernel.text.split("\n")[line - 1], None), advice)
 
 
-def _advice(program: Program, kernel: Section, told: Sequence[Complaint], log: str) -> str:
+def _advice(program: Program, kernels: Sequence[Section], told: Sequence[Complaint], log: str) -> str:
     """Say what to do about a kernel's complaints; "" where only the compiler's words say it."""
     from harness.kernels.functions import FUNCTIONS
 
     if re.search(r"\bmacro\b.{0,20}\bfor\b", log):
         return ONE_COUNTER
-    others = "\n".join(section.text for section in program.sections if section is not kernel)
-    code = _code(kernel)
+    others = "\n".join(section.text for section in program.sections if section not in kernels)
+    code = "\n".join(map(_code, kernels))
     lacking = [name for name in FUNCTIONS if _calls(code, name) and not _calls(others, name)]
     if lacking:
         names = ", ".join(map(repr, lacking)).replace("'", '"')
         return f"add {names} to needs in method.py: only functions that are named there are generated"
     named = (name for complaint in told for name in sorted(unknown_names(complaint.words)))
     known = next((advice for name in named if (advice := _advice_for(name, program))), "")
-    return known or _advice_on_words(code.split("\n")[told[0].line - 1] if told[0].file == kernel.origin else "")
+    lines = next((_code(kernel).split("\n") for kernel in kernels if kernel.origin == told[0].file), None)
+    return known or _advice_on_words(lines[told[0].line - 1] if lines else "")
 
 
 def _advice_on_words(line: str) -> str:

@@ -192,11 +192,13 @@ def method_sections(
     precision: Precision,
     language: Language,
     loose: bool = False,
+    stage: TileStage | None = None,
 ) -> list[Section]:
     """Return the method's own sections, which come after the surface's: its knobs, tables, late libraries and kernel.
 
-    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`. Raises FirsthitError with exit code 3
-    where a function of the kernel calls itself.
+    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`. If a `stage` of tiles is given, the
+    file of the folder that is named as the stage stands behind the kernel, where there is one. Raises FirsthitError
+    with exit code 3 where a function of these files calls itself.
     """
     loosened = {p.name: p for p in method.parameters if p.per} if loose else None
     sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
@@ -204,10 +206,13 @@ def method_sections(
         tables = method.tables(surface, dict(variant.parameters), precision)
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
     sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
-    kernel = file_section(folder / "kernel.glsl")
-    if complaint := recursion(kernel):
+    own = [folder / "kernel.glsl"]
+    if stage and (folder / f"{stage}.glsl").exists():
+        own.append(folder / f"{stage}.glsl")
+    texts = [file_section(path) for path in own]
+    if complaint := next(filter(None, map(recursion, texts)), None):
         raise FirsthitError(str(complaint), exit_code=3)
-    return [*sections, kernel]
+    return [*sections, *texts]
 
 
 def beam_sections(

@@ -56,9 +56,9 @@ def stage_program(
 ) -> Program:
     """Return the program of one stage. Its entry is named as the stage.
 
-    `folder` holds the method's kernel.glsl. If `listed`, each pixel's ray is read from a buffer, else made from the
-    camera. `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it has the same
-    method's knobs and tables.
+    `folder` holds the method's kernel.glsl and, where a stage has a file of its own, that file, named as the stage. If
+    `listed`, each pixel's ray is read from a buffer, else made from the camera. `rest` is the folder of the kernel.glsl
+    that casts the pixels that are left in stage "rest"; it has the same method's knobs and tables.
 
     `lanes` says who has a tile's sixteen lanes: "vector": a work item, in vectors of sixteen numbers (OpenCL only);
     "group": sixteen work items, which exchange numbers through local memory where a stage needs it; "own": no lane
@@ -80,7 +80,7 @@ def stage_program(
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
-        sections += method_sections(method, folder, variant, surface, precision, language)
+        sections += method_sections(method, folder, variant, surface, precision, language, stage=stage)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
 

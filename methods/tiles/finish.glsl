@@ -1,0 +1,87 @@
+// A cubic polynomial a + b u + c u² + d u³, and one whose coefficients are cubic polynomials of u.
+STRUCT(Cubic) struct Cubic { real a; real b; real c; real d; };
+STRUCT(Bicubic) struct Bicubic { Cubic r0; Cubic r1; Cubic r2; Cubic r3; };
+
+Cubic kept_cubic(Work work, int place) {
+    Cubic cubic;
+    cubic.a = entry_at(work, place);
+    cubic.b = entry_at(work, place + 1);
+    cubic.c = entry_at(work, place + 2);
+    cubic.d = entry_at(work, place + 3);
+    return cubic;
+}
+
+Bicubic kept_bicubic(Work work, int place) {
+    Bicubic bicubic;
+    bicubic.r0 = kept_cubic(work, place);
+    bicubic.r1 = kept_cubic(work, place + 4);
+    bicubic.r2 = kept_cubic(work, place + 8);
+    bicubic.r3 = kept_cubic(work, place + 12);
+    return bicubic;
+}
+
+wide cubic_value(Cubic p, wide u) {
+    return ((p.d * u + p.c) * u + p.b) * u + p.a;
+}
+
+wide bicubic_value(Bicubic p, wide u, wide v) {
+    return ((cubic_value(p.r3, u) * v + cubic_value(p.r2, u)) * v + cubic_value(p.r1, u)) * v + cubic_value(p.r0, u);
+}
+
+// Stage 2. Pixels of single tiles: bicubic interpolation of the nodes' roots, and then f itself.
+void finish_tiles(Work work, Frame frame) {
+    int across = tiles_across(work.size, work.tile);
+    int total = counted(work, 4 * work.level + 1);
+    int list = QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across;
+    real half_side = 0.5 * real(work.tile - 1) + WIDER;
+    real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    int blocks = work.tile / 4;
+    for (int turn = 0;; turn++) {
+        int taken = next_tile(work, TAKEN + 8 + work.level, turn);
+        if (taken >= total) break;
+        int cell = queued(work, list + taken);
+        int record = singles_at(work.size, work.tile) + SINGLE_RECORD * taken;
+        Bicubic roots = kept_bicubic(work, record);
+        Bicubic slopes = kept_bicubic(work, record + 16);
+        real start = entry_at(work, record + 32);
+        real stop = entry_at(work, record + 33);
+        bool whole = entry_at(work, record + 34) > 0.0;
+        int spent = int(entry_at(work, record + 35));
+        real lean_x = entry_at(work, record + 36);
+        real lean_y = entry_at(work, record + 37);
+        real shrunk = 1.0 - fabs(lean_x) - fabs(lean_y);
+        for (int block = 0; block < blocks * blocks; block++) {
+            int bi = 4 * (block % blocks);
+            int bj = 4 * (block / blocks);
+            int i0 = (cell % across) * work.tile + bi;
+            int j0 = (cell / across) * work.tile + bj;
+            if (i0 >= work.size || j0 >= work.size) continue;
+            Pencil rays = pencil_of(work, frame, i0, j0);
+            wide u = (lane_row(LANE_X, 0) + (real(bi) - 0.5 * real(work.tile - 1))) / half_side;
+            wide v = (lane_row(LANE_Y, 0) + (real(bj) - 0.5 * real(work.tile - 1))) / half_side;
+            // in the nodes' planes, which lean, the place and the depth are `grown` times those in planes of one depth
+            wide deeper = lean_x * u + lean_y * v;
+            wide grown = 1.0 / (1.0 - deeper);
+            u = u * grown * shrunk;
+            v = v * grown * shrunk;
+            wide root = bicubic_value(roots, u, v);
+            wide g = bicubic_value(slopes, u, v);
+            wide begin = rays.base + frame.middle * deeper * grown * rays.length;
+            wide length = grown * rays.length;
+            wide a = begin + start * length - slack;
+            wide b = begin + stop * length + slack;
+            Refined found = refined(work, rays, begin + root * length, a, b, g * length, NOT(NOWHERE));
+            yes hit = NOT(NOWHERE);
+            yes left = NOT(found.good);
+            if (!whole) {
+                WideSpan span = wide_span(rays.o, rays.d, 0.0);
+                span.lo = max(span.lo, -rays.shift);
+                hit = NOT(EITHER(MORE(span.lo, span.hi), MORE(found.t, span.hi)));
+                left = BOTH(hit, EITHER(left, LESS(found.t, span.lo)));
+            }
+            answer_block(work, i0, j0, rays.shift, found.t, hit, LEVELS + work.level, spent + found.evaluations);
+            real before = (frame.middle + start) / (2.0 - shrunk) - frame.middle;  // no ray has a root before this depth
+            if (any_lane(left)) leave_pixels(work, i0, j0, left, wide(before));
+        }
+    }
+}

@@ -1,0 +1,397 @@
+// The stage that isolates: searches tiles of one level for pieces of depth that hold the first roots of all their rays.
+#define RIM 0.0390625          // from the outermost nodes to the square's sides, in half sides: 5/128
+#define GAP 0.3984375          // half the distance between the inner nodes: 51/128
+#define BALLAST 7.0            // worst rounding error of TRANSFORM in unit roundoffs of the largest coefficient,
+#define MIXING 220.0           // and of the largest difference of two lanes
+#define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
+
+// A pyramid from the eye that holds a tile's rays: at depth s it is the parallelogram of the middle ray's point plus
+// s (u across + v down), u and v in [-1, 1]. Its parameter is s less frame.middle.
+STRUCT(Tile) struct Tile { Ray middle; vec3 across; vec3 down; };
+
+// Returns each lane's node ray.
+WideRay node_ray(Work work, Frame frame, Tile tile) {
+    wide u = lane_row(NODE_X, 0);
+    wide v = lane_row(NODE_Y, 0);
+    wide x = u * tile.across.x + v * tile.down.x;
+    wide y = u * tile.across.y + v * tile.down.y;
+    wide z = u * tile.across.z + v * tile.down.z;
+    WideRay ray;
+    ray.origin.x = tile.middle.origin.x + frame.middle * x;
+    ray.origin.y = tile.middle.origin.y + frame.middle * y;
+    ray.origin.z = tile.middle.origin.z + frame.middle * z;
+    ray.direction.x = tile.middle.direction.x + x;
+    ray.direction.y = tile.middle.direction.y + y;
+    ray.direction.z = tile.middle.direction.z + z;
+    return ray;
+}
+
+// Returns the largest distance of the tile's rays from its middle ray at depth 1, and the largest in one coordinate.
+real corner_of(Tile tile) {
+    vec3 sum = moved(tile.across, 1.0, tile.down);
+    vec3 rest = difference(tile.across, tile.down);
+    return sqrt(max(inner_product(sum, sum), inner_product(rest, rest)));
+}
+
+real widest_of(Tile tile) {
+    return max(fabs(tile.across.x) + fabs(tile.down.x),
+               max(fabs(tile.across.y) + fabs(tile.down.y), fabs(tile.across.z) + fabs(tile.down.z)));
+}
+
+int cell_of(real place) {
+    return clamp(int(place), 0, GRID - 1);
+}
+
+// Returns |v| to each lane's power, 0 to 4.
+wide power_of(wide power, real v) {
+    wide result = wide(1.0);
+    for (int k = 0; k < 4; k++) result = CHOOSE(MORE(power, wide(real(k))), fabs(v) * result, result);
+    return result;
+}
+
+// Returns each lane's factor of a fourth derivative in the bound of the remainder at depth 1.
+wide remainder_weight(Work work, Tile tile) {
+    wide x = lane_row(POWERS_X, 0);
+    wide y = lane_row(POWERS_Y, 0);
+    wide z = lane_row(POWERS_Z, 0);
+    wide across = power_of(x, tile.across.x) * power_of(y, tile.across.y) * power_of(z, tile.across.z);
+    wide down = power_of(x, tile.down.x) * power_of(y, tile.down.y) * power_of(z, tile.down.z);
+    return REMAINDER_X * across + REMAINDER_Y * down;
+}
+
+// Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives, one a
+// lane, that are looked up along the tile's middle ray. A cell's bounds hold one cell beyond it. So if the tile's rays
+// are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
+real remainder_between(Work work, Frame frame, Tile tile, Lanes weights, real aside, real start, real stop) {
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    vec3 a = difference(ray_point(tile.middle, start), DOMAIN_CENTER);
+    vec3 b = difference(ray_point(tile.middle, stop), DOMAIN_CENTER);
+    vec3 way = difference(b, a);
+    real most_way = max(fabs(way.x), max(fabs(way.y), fabs(way.z)));
+    int steps = 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside)));
+    real share = 1.0 / real(steps);
+    Lanes bounds;
+    EACH_LANE {
+        KEEP_NUMBER(bounds, wide(0.0))
+    }
+    for (int k = 0; k <= steps; k++) {
+        vec3 p = moved(a, share * real(k), way);
+        int z = cell_of(cells * p.z + 0.5 * real(GRID));
+        int y = cell_of(cells * p.y + 0.5 * real(GRID));
+        int x = cell_of(cells * p.x + 0.5 * real(GRID));
+        real depth = frame.middle + min(start + share * (real(k) + 0.5) * (stop - start), stop);
+        real grown = (depth * depth) * (depth * depth);
+        EACH_LANE {
+            RAISE_NUMBER(bounds, grown * fourth_row(work, 16 * ((z * GRID + y) * GRID + x)))
+        }
+    }
+    real bound = 0.0;
+    EACH_LANE {
+        bound += total(NUMBER(weights) * NUMBER(bounds));
+    }
+    return bound;
+}
+
+// How a tile leans: by which share a plane of its nodes at one parameter is deeper at the tile's right side, and at its
+// lower side, than in the middle. `range` is the largest distance of the nodes' roots from that plane.
+STRUCT(Lean) struct Lean { real across; real down; real middle; real range; };
+
+// Estimates the plane of the nodes' first roots from the secants of f, from [start, stop] on.
+Lean lean_of(Work work, Frame frame, Tile tile, real start, real stop) {
+    real width = stop - start;
+    real sum = 0.0;
+    real squares = 0.0;
+    real across = 0.0;
+    real down = 0.0;
+    Lanes roots;
+    EACH_LANE {
+        WideRay node = node_ray(work, frame, tile);
+        wide a = wide(start);
+        wide t = wide(stop);
+        wide fa = wide_value(wide_point(node.origin, a, node.direction));
+        for (int k = 0; k < 3; k++) {
+            wide f = wide_value(wide_point(node.origin, t, node.direction));
+            wide next = t - f * ((t - a) / (f - fa));
+            a = t;
+            fa = f;
+            t = clamp(CHOOSE(LESS(fabs(next), wide(REAL_INFINITY)), next, t), wide(start - 2.0 * width),
+                      wide(stop + 6.0 * width));
+        }
+        KEEP_NUMBER(roots, t)
+        sum += total(t);
+        squares += total(lane_row(NODE_X, 0) * lane_row(NODE_X, 0));
+        across += total(lane_row(NODE_X, 0) * t);
+        down += total(lane_row(NODE_Y, 0) * t);
+    }
+    Lean lean;
+    lean.middle = 0.0625 * sum;
+    across = across / squares;
+    down = down / squares;
+    lean.range = 0.0;
+    EACH_LANE {
+        wide t = lean.middle + across * lane_row(NODE_X, 0) + down * lane_row(NODE_Y, 0);
+        lean.range = max(lean.range, most(fabs(NUMBER(roots) - t)));
+    }
+    lean.across = across / (frame.middle + lean.middle);
+    lean.down = down / (frame.middle + lean.middle);
+    return lean;
+}
+
+// Returns a tile that holds the same rays, with nodes in leaning planes.
+Tile leaning(Tile tile, Lean lean) {
+    real grown = 1.0 / (1.0 - fabs(lean.across) - fabs(lean.down));
+    Tile result;
+    result.middle = tile.middle;
+    result.across = moved(tile.across, lean.across, tile.middle.direction);
+    result.down = moved(tile.down, lean.down, tile.middle.direction);
+    result.across = vec3(grown * result.across.x, grown * result.across.y, grown * result.across.z);
+    result.down = vec3(grown * result.down.x, grown * result.down.y, grown * result.down.z);
+    return result;
+}
+
+int single_bits(int above, int below) {
+    return bit_count(above & ~(above + 1)) + bit_count(below & ~(below + 1));
+}
+
+// Stage 1. Tiles of one level: each is empty, single (every ray has its first root in one piece, and no other root
+// there), or open, and then its four quarters are searched on the next level, or its pixels by stage 3.
+void isolate_tiles(Work work, Frame frame) {
+    Bundle stack[HALVINGS];
+    int across = tiles_across(work.size, work.tile);
+    bool first = work.level == 0;
+    int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
+    int above_across = tiles_across(work.size, 2 * work.tile);
+    int above = tiles_before(work.size, 2 * work.tile);
+    real half_side = 0.5 * real(work.tile - 1) + WIDER;
+    real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
+    Rows to_control;
+    Rows to_powers;
+    MAKE_ROWS(to_control, TO_CONTROL)
+    MAKE_ROWS(to_powers, TO_POWERS)
+    int all_fits = 0;
+    int all_pieces = 0;
+    for (int turn = 0;; turn++) {
+        int taken = next_tile(work, TAKEN + work.level, turn);
+        if (taken >= total) break;
+        int cell_x = taken % across;
+        int cell_y = taken / across;
+        real start = -REAL_INFINITY;
+        real stop = REAL_INFINITY;
+        int spent = 0;
+        if (!first) {
+            int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
+            int record = (OPEN_RECORD + SINGLE_RECORD) * above + OPEN_RECORD * (taken >> 2);
+            cell_x = 2 * (parent % above_across) + (taken & 1);
+            cell_y = 2 * (parent / above_across) + ((taken >> 1) & 1);
+            start = entry_at(work, record);
+            stop = entry_at(work, record + 1);
+            spent = int(entry_at(work, record + 2));
+        }
+        if (cell_x >= across || cell_y >= across) continue;
+        int cell = cell_y * across + cell_x;
+        int i0 = cell_x * work.tile;
+        int j0 = cell_y * work.tile;
+
+        real pixels = 1.0 / real(work.size);
+        real middle_x = real(2 * i0 + work.tile - work.size) * pixels;
+        real middle_y = real(work.size - 2 * j0 - work.tile) * pixels;
+        real side = 2.0 * half_side * pixels;
+        Tile tile;
+        tile.middle = make_ray(moved(moved(frame.origin, frame.middle * middle_x, frame.right),
+                                     frame.middle * middle_y, frame.up),
+                               moved(moved(frame.forward, middle_x, frame.right), middle_y, frame.up));
+        tile.across = vec3(side * frame.right.x, side * frame.right.y, side * frame.right.z);
+        tile.down = vec3(-side * frame.up.x, -side * frame.up.y, -side * frame.up.z);
+        Lean lean;
+        lean.across = 0.0;
+        lean.down = 0.0;
+        bool leans = false;
+        real aside = cells * frame.far * widest_of(tile);
+        real corner = 1.0009765625 * frame.far * corner_of(tile);
+        real rim = RIM * corner + rounding;
+        real near = REAL_INFINITY;
+        real end = -REAL_INFINITY;
+        Lanes weights;
+        EACH_LANE {
+            WideRay node = node_ray(work, frame, tile);
+            // a ray is at most so far from the nearest node's ray: half a diagonal of the net
+            WideSpan span = wide_span(node.origin, node.direction, GAP * corner + rounding);
+            near = min(near, least(span.lo));
+            end = max(end, most(span.hi));
+            KEEP_NUMBER(weights, remainder_weight(work, tile))
+        }
+        start = max(start, max(near, -frame.middle));
+        stop = min(stop, end);
+        if (stop <= start) stop = end;
+        int verdict = start < end ? SEARCHING : EMPTY;
+        if (aside > ASIDE && verdict == SEARCHING) {
+            verdict = OPEN;
+            stop = end;
+        }
+        int depth = 0;
+        int path = 1;
+        int tries = 0;
+        bool negative = false;
+        real open_start = start;
+        real open_width = 0.0;
+        Poly c;
+        Poly s;
+        Net net;
+        Bundle bundle;
+        Bundle far;
+        while (verdict == SEARCHING) {
+            real reach = stop - start;
+            bool in_table = true;
+            real squared = 0.0;
+            EACH_LANE {
+                WideRay node = node_ray(work, frame, tile);
+                WideVec3 front = wide_point(node.origin, wide(start), node.direction);
+                WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
+                bool here = all_lanes(BOTH(inside(front, MARGIN - rim), inside(back, MARGIN - rim)));
+                in_table = in_table && here;
+                squared = max(squared, most(squared_distance(front, back)));
+            }
+            int inner = in_table ? SEARCHING : OPEN;
+            depth = 0;
+            path = 1;
+            if (inner == SEARCHING) {
+                real weighted = 0.0;
+                EACH_LANE {
+                    WideRay node = node_ray(work, frame, tile);
+                    SAMPLE(s, node.origin, node.direction, start, reach)
+                    if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
+                    if (negative) SCALE(s, -1.0)
+                    FIT(s, c)
+                    weighted = max(weighted, most(WEIGHTED(s)));
+                    KEEP_LANE(net, c)
+                }
+                all_fits += 1;
+                spent += 16 * (N + 1);
+                real spread = 0.0;
+                FIND_SPREAD(net, spread)
+                CONTROL(net)
+                BUNDLED(net, bundle)
+                Errors errors;
+                errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
+                errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
+                             + remainder_between(work, frame, tile, weights, aside, start, stop);
+                errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
+                                                        + MIXING * 2.0 * spread) + BALLAST * errors.unit;
+                while (inner == SEARCHING) {
+                    real error = error_at(errors, depth);
+                    all_pieces += 1;
+                    if (ALL_ABOVE(bundle, error)) {
+                        int up = bit_count(path & ~(path + 1));  // far halves that end here, with the piece itself
+                        if (up > depth) {
+                            inner = EMPTY;
+                        } else {
+                            depth -= up;
+                            path = (path >> up) + 1;
+                            bundle = stack[depth - 1];
+                        }
+                    } else {
+                        if (CROSSES(bundle, error)) {
+                            bool falls = FALLS(bundle, error);
+                            if (!falls) falls = single_bits(SURE_ABOVE(bundle, error), SURE_BELOW(bundle, error)) >= N;
+                            if (falls) inner = SINGLE;
+                        }
+                        real shortest = leans ? 0.25 * least_width : least_width;
+                        bool deepest = depth == HALVINGS || reach < shortest * real(1 << depth);
+                        if (inner == SEARCHING && deepest) inner = OPEN;
+                        if (inner == SEARCHING) {
+                            HALVE_BUNDLE(bundle, far)
+                            stack[depth] = far;
+                            depth += 1;
+                            path *= 2;
+                        }
+                    }
+                }
+            }
+            if (inner == EMPTY) {
+                start = stop;
+                stop = end;
+                if (!(start < end)) verdict = EMPTY;
+            } else {
+                real width = reach / real(1 << depth);
+                start = start + width * real(path - (1 << depth));
+                stop = start + width;
+                verdict = inner;
+                tries += 1;
+                real wider = WIDENING * width;
+                if (inner == OPEN && tries <= REFITS && (wider < reach || path > (1 << depth))) {
+                    verdict = SEARCHING;
+                    stop = min(start + wider, end);
+                } else if (inner == OPEN && !leans && LEANS > 0) {
+                    // once more in planes that lean as the surface does
+                    open_start = start;
+                    open_width = width;
+                    leans = true;
+                    lean = lean_of(work, frame, tile, start, stop);
+                    spent += 64;
+                    Tile other = leaning(tile, lean);
+                    real share = fabs(lean.across) + fabs(lean.down);
+                    real other_aside = cells * frame.far * widest_of(other);
+                    if (share < 0.25 && other_aside < ASIDE && lean.range < width) {
+                        verdict = SEARCHING;
+                        tries = 0;
+                        tile = other;
+                        EACH_LANE {
+                            KEEP_NUMBER(weights, remainder_weight(work, tile))
+                        }
+                        aside = other_aside;
+                        rim = RIM * 1.0009765625 * frame.far * corner_of(tile) + rounding;
+                        start = (frame.middle + start) * (1.0 - share) - frame.middle - rounding;
+                        end = (frame.middle + end) * (1.0 + share) - frame.middle + rounding;
+                        stop = min(lean.middle + 2.0 * lean.range + width, end);
+                        if (stop <= start) stop = end;
+                    }
+                }
+            }
+        }
+        if (verdict == SINGLE) spent += 16 * (N + 1);
+        int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
+        if (verdict == EMPTY) answer_empty(work, i0, j0, share);
+        if (verdict == SINGLE) {
+            real width = stop - start;
+            bool whole = true;
+            Lanes roots;
+            Lanes slopes;
+            EACH_LANE {
+                WideRay node = node_ray(work, frame, tile);
+                WideVec3 front = wide_point(node.origin, wide(start), node.direction);
+                WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
+                bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
+                whole = whole && here;
+                SAMPLE(s, node.origin, node.direction, start, width)
+                if (negative) SCALE(s, -1.0)
+                FIT(s, c)
+                WideRoot found;
+                FIND_ROOT(found, c, NOT(NOWHERE))
+                wide root = start + width * found.x;
+                wide slope = width / found.slope;
+                if (negative) slope = -slope;
+                KEEP_NUMBER(roots, root)
+                KEEP_NUMBER(slopes, slope)
+            }
+            TO_CUBIC(roots)
+            TO_CUBIC(slopes)
+            list_single(work, cell, roots, slopes, start, stop, whole, share, lean.across, lean.down);
+        }
+        if (verdict == OPEN) {
+            if (leans) {
+                // no ray has a root before this depth
+                real share = fabs(lean.across) + fabs(lean.down);
+                start = max(open_start, (frame.middle + start) / (1.0 + share) - frame.middle);
+                stop = start + open_width;
+            }
+            real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
+            if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
+        }
+    }
+    if (LEADS) {
+        add_to(work, 4 * work.level + 2, all_fits);
+        add_to(work, 4 * work.level + 3, all_pieces);
+    }
+}
