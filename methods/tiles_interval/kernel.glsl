@@ -142,8 +142,9 @@ STRUCT(Search) struct Search {
 
 // Searches a pyramid's pieces from `start` to `end`, the first one `width` long. A piece that is not decided is halved
 // until it is no longer than `least`. Where f falls or rises along all rays, and the far end is not behind all their
-// roots, the piece is made longer instead.
-Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, real least) {
+// roots, the piece is made longer instead. A pyramid with more than one ray is single only if all have entered the domain
+// where the first of them may have its root.
+Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, real least, bool alone) {
     Search search;
     search.verdict = start < end ? SEARCHING : EMPTY;
     search.start = start;
@@ -158,6 +159,7 @@ Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, 
     int grown = 0;
     Interval first = middle_range(pyramid, start);
     while (search.verdict == SEARCHING) {
+        bool most = search.evaluations >= 2 * PIECES;
         real a = search.start;
         real b = grown > 0 ? a + width : min(a + width, end);
         Box box = piece_box(frame, pyramid, a, b);
@@ -193,6 +195,10 @@ Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, 
         bool empty = outside_domain(box) || clear || rises || (g.known && side != 0.0 && lowest > aside);
         real steepest = -fall + turned;
         real flattest = -rise - turned;
+        bool crosses = far_most < -aside;
+        // no ray has a root before this, and if it has entered the domain there, none that is before its way in it
+        real before_roots = a + max(near - aside, real(0)) / (UP * steepest);
+        bool entered = alone || inside_domain(piece_box(frame, pyramid, before_roots, before_roots));
         if (empty) {
             search.start = b;
             first = last;
@@ -202,22 +208,23 @@ Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, 
             if (grown == 0) width = 2.0 * width;
             grown = 0;
             if (b >= end) search.verdict = EMPTY;
-        } else if (falls && far_most < -aside) {
+        } else if (falls && crosses && entered) {
             search.verdict = SINGLE;
             search.stop = b;
             search.sign = side;
             search.slope = 0.5 * (along.lo + along.hi);
             search.across = 0.5 * (across.lo + across.hi);
             search.down = 0.5 * (down.lo + down.hi);
-            search.whole = inside_domain(box);
-        } else if (falls && grown < GROWTHS) {
+            search.whole = inside_domain(piece_box(frame, pyramid, before_roots, b));
+        } else if (falls && !crosses && grown < GROWTHS && !most) {
             grown += 1;
             width = min((b - a) + 1.0625 * (max(far_most, real(0)) + 2.0 * aside) / flattest, 4.0 * width);
-        } else if (grown > 0 || width <= least) {
+        } else if ((grown > 0 && !alone) || width <= least || most) {
             search.verdict = OPEN;
             search.stop = b;
         } else {
-            width = 0.5 * width;
+            width = (grown > 0 ? 0.125 : 0.5) * width;
+            grown = 0;
         }
     }
     return search;
@@ -315,6 +322,23 @@ void finish_pixel(Work work, Frame frame, int i, int j, real sign, real root, re
     if (left) leave_pixel(work, place, start);
 }
 
+// Lists a single tile with the root of its middle ray, and how that changes towards the tile's sides.
+void list_ranged(Work work, Frame frame, int cell, Search search, Pyramid pyramid, int spent) {
+    Refined found = refined(pyramid.middle, search.sign, 0.5 * (search.start + search.stop), search.start, search.stop,
+                            1.0 / search.slope);
+    real leaning = -(frame.middle + found.t) / search.slope;
+    int record = next_single(work, cell);
+    enter(work, record, found.t);
+    enter(work, record + 1, leaning * search.across);
+    enter(work, record + 2, leaning * search.down);
+    enter(work, record + 3, search.slope);
+    enter(work, record + 4, search.start);
+    enter(work, record + 5, search.stop);
+    enter(work, record + 6, search.sign);
+    enter(work, record + 7, search.whole ? real(1) : real(0));
+    enter(work, record + 8, real(spent));
+}
+
 // Stage 1. Tiles of one level: each is empty, single or open. Open ones are cut into quarters on the next level, and
 // those of the last level into pixels by stage 3.
 void isolate_tiles(Work work, Frame frame) {
@@ -347,11 +371,11 @@ void isolate_tiles(Work work, Frame frame) {
         start = max(start, span.lo);
         width = min(width, FIRST * (span.hi - span.lo));
         real least = SHORTEST * real(work.tile) * frame.pixel * (frame.middle + frame.reach);
-        Search search = searched(frame, pyramid, start, span.hi, width, least);
+        Search search = searched(frame, pyramid, start, span.hi, width, least, false);
         spent += search.evaluations;
         int share = (spent + pixels - 1) / pixels;
         if (search.verdict == EMPTY) answer_empty(work, i0, j0, share);
-        if (search.verdict == SINGLE) list_ranged(work, cell_y * across + cell_x, search, pyramid, share);
+        if (search.verdict == SINGLE) list_ranged(work, frame, cell_y * across + cell_x, search, pyramid, share);
         if (search.verdict == OPEN) {
             list_open(work, cell_y * across + cell_x, search.start, 2.0 * (search.stop - search.start), spent / 4);
         }
@@ -399,7 +423,7 @@ void cast_packets(Work work, Frame frame) {
         Pyramid pyramid = pyramid_of(frame, i, j, 1, work.size);
         Span span = span_of(frame, pyramid);
         real start = max(entry_at(work, record), span.lo);
-        Search search = searched(frame, pyramid, start, span.hi, entry_at(work, record + 1), FINEST * DOMAIN_RADIUS);
+        Search search = searched(frame, pyramid, start, span.hi, entry_at(work, record + 1), FINEST * DOMAIN_RADIUS, true);
         int spent = search.evaluations + int(entry_at(work, record + 2)) / (pixels / 4);
         int place = j * work.size + i;
         if (search.verdict == SINGLE) {
