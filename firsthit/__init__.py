@@ -19,6 +19,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -45,7 +46,7 @@ from harness.contract import (
     Variant,
     View,
 )
-from harness.limits import PICTURE, PIXELS, checked_names, checked_path, held
+from harness.limits import JOBS, PICTURE, PIXELS, checked_names, checked_path, held
 from surfaces.words import COORDINATES
 
 if TYPE_CHECKING:
@@ -165,16 +166,19 @@ def trace(
     return cast(caster, chosen, checked, t_min=t_min, tell=_warn)
 
 
-def oracle(surface: AnySurface, rays: NDArray[np.float32], t_min: float = 0.0) -> Truth:
+def oracle(surface: AnySurface, rays: NDArray[np.float32], t_min: float = 0.0, *, jobs: int | None = None) -> Truth:
     """Return proved intervals of the first hits of rays float32[n, 6] from the distance `t_min` on.
 
-    A ray on which neither a hit nor a miss could be proved is UNDECIDED. No device is used. Raises FirsthitError for a
-    surface, rays or a distance that make no sense.
+    A ray on which neither a hit nor a miss could be proved is UNDECIDED. No device is used. Many rays are
+    certified by `jobs` processes, one for each core if that is None; the answers do not depend on it. Raises
+    FirsthitError for a surface, rays or a distance that make no sense.
     """
     from harness.oracle import first_hits
     from harness.running.trace import checked_rays
 
-    return first_hits(_surface(surface), checked_rays(rays), t_min)
+    chosen, checked = _surface(surface), checked_rays(rays)
+    with _processes(jobs):
+        return first_hits(chosen, checked, t_min)
 
 
 def render(
@@ -213,6 +217,7 @@ def run(
     retry_failed: bool = False,
     wait: bool = False,
     yes: bool = False,
+    jobs: int | None = None,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Run:
@@ -220,8 +225,9 @@ def run(
 
     `config` is the path of a TOML file, or the name of a config that firsthit ships, as in "quick". `devices` take the
     place of those that it names. Finished cells are reused; `force` runs them again, `retry_failed` runs those again
-    that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. `tell` is called with a
-    line of text for whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
+    that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. First hits are
+    certified by `jobs` processes, one for each core if that is None; never while a time is taken. `tell` is called with
+    a line of text for whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
     it has ended. A run that was stopped, as by interrupting a notebook, goes on from there when it is called again.
 
     A cell that fails is a row that says why. Raises FirsthitError for an argument that makes no sense, with file and
@@ -239,8 +245,9 @@ def run(
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
     words += ["--yes"] if yes else []
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
-    again = {"force": force, "retry_failed": retry_failed, "wait": wait}
-    return running.run(given, folder, command, watcher=watcher, **again)
+    again: dict[str, Any] = {"force": force, "retry_failed": retry_failed, "wait": wait}
+    with _processes(jobs):
+        return running.run(given, folder, command, watcher=watcher, **again)
 
 
 def load(folder: AnyPath) -> pd.DataFrame:
@@ -276,6 +283,7 @@ def recommend(
     yes: bool = False,
     runs: AnyPath = "runs",
     wait: bool = False,
+    jobs: int | None = None,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Recommendation:
@@ -286,7 +294,7 @@ def recommend(
     variant and view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32
     holds. Only methods that make all claims of `require`, names of CLAIMS, are tried. Rows are kept below `runs`, where
     `wait` waits for another search of the same surface to end; `tell` is called with a line of text for each step and
-    whatever ends. More than 20,000 checks need `yes`.
+    whatever ends. More than 20,000 checks need `yes`. `jobs` is that of `run`.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
     numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.
@@ -310,7 +318,8 @@ def recommend(
     )
     catalog, folder = find_methods(_folder(plugins)), checked_path("runs", runs)
     stated = wish, catalog, device, folder, teller(tell)
-    return search.recommend(*stated, command="firsthit.recommend", wait=wait, yes=yes)
+    with _processes(jobs):
+        return search.recommend(*stated, command="firsthit.recommend", wait=wait, yes=yes)
 
 
 def _surface(given: AnySurface) -> Surface:
@@ -345,6 +354,13 @@ def _caster(
     plugin = catalog.get(method)
     variant = plugin.variant({} if knobs is None else knobs)
     return Caster(plugin, variant, usable_device().name if device is None else device, precision, origin, timeout)
+
+
+def _processes(jobs: int | None) -> AbstractContextManager[None]:
+    """Let `jobs` processes take the oracle's work while a block runs. Raises FirsthitError for no such number."""
+    from harness.spreading import pool
+
+    return pool.over(None if jobs is None else held("jobs", jobs, Annotated[int, JOBS]))
 
 
 def _folder(plugins: AnyPath | None) -> Path | None:

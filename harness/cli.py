@@ -93,7 +93,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         completion.complete(build_parser)
     from harness.terminal import guarded
 
-    options = argparse.Namespace(command=None, force=False, json=False, quiet=False, verbose=False)
+    options = argparse.Namespace(command=None, force=False, jobs=1, json=False, quiet=False, verbose=False)
     with guarded(), stoppable():
         return _guarded(sys.argv[1:] if arguments is None else arguments, options)
 
@@ -179,12 +179,22 @@ def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     from harness.terminal import SCREEN
 
     SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
-    if options.json:
-        from harness.commands import machine
+    with _spread(options.jobs):
+        if options.json:
+            from harness.commands import machine
 
-        return machine.run(options.run, options)
-    code: int = options.run(options)
-    return code
+            return machine.run(options.run, options)
+        code: int = options.run(options)
+        return code
+
+
+def _spread(jobs: int | None) -> contextlib.AbstractContextManager[None]:
+    """Let a command that has the option --jobs hand its work to so many processes while it runs."""
+    if jobs == 1:
+        return contextlib.nullcontext()
+    from harness.spreading import pool
+
+    return pool.over(jobs)
 
 
 def _cleared() -> None:

@@ -308,6 +308,7 @@ ELEVATION = Within(-90.0, 90.0)  # degrees
 FIELD_OF_VIEW = Within(1e-3, 179.0)  # degrees
 DISTANCE = Within(1e-6, 1e9)  # scene units
 POSITION = Within(-1e9, 1e9)  # scene units
+JOBS = Within(1, 1024)  # processes
 SEED = Within(0, 2**63 - 1)
 SHARE = Within(0.0, 1.0)
 PIXELS = Within(1, 16384)  # per side of a frame that is timed, and rays per side of a view

@@ -91,10 +91,14 @@ def unwatched() -> str | None:
 
 @dataclass(eq=False)
 class Watch:
-    """Watch a process and its children, which together may hold `share` of the machine's memory."""
+    """Watch a process and its children, which together may hold `share` of the machine's memory.
+
+    A process that is `alone` starts no children, and none are searched for.
+    """
 
     pid: int
     share: float = SHARE
+    alone: bool = False
     _family: list[int] = field(default_factory=list)
     _searched: float = 0.0
 
@@ -105,8 +109,9 @@ class Watch:
             return
         most = self.share * whole
         if self.held() > most:
+            told = f"held more than {most / GIGA:.3g} GB of memory"
             limit = f"the limit ([budget] memory = {self.share:g} of {whole / GIGA:.1f} GB)"
-            raise TooMuch(f"held more than {most / GIGA:.3g} GB of memory, {limit}")
+            raise TooMuch(f"{told}, its part of what all may hold" if self.alone else f"{told}, {limit}")
 
     def kill(self) -> None:
         """Kill the process and all its children: a compiler that it started would go on to grow without it."""
@@ -118,6 +123,8 @@ class Watch:
         """Return the bytes of memory that the process and its children hold now; 0 of what has ended."""
         if sys.platform != "linux":
             return _held_elsewhere(self.pid)
+        if self.alone:
+            return _resident(self.pid)
         if not self._family or time.monotonic() - self._searched > FAMILY_SECONDS:
             self._family, self._searched = [self.pid, *_descendants(self.pid)], time.monotonic()
         return sum(map(_resident, self._family))

@@ -15,6 +15,7 @@ import pytest
 import surfaces
 from harness import ROOT, studies
 from harness.contract import FirsthitError
+from harness.devices import host
 from harness.experiment import identity
 from harness.oracle import cache
 from harness.results import sources
@@ -122,6 +123,7 @@ from harness.devices.worker import Worker
 
 class Here:
     '''Does in this process what a worker would.'''
+    moves = 0
     def __init__(self): self.workers = {}
     def __getattr__(self, operation):
         def do(device, *arguments, **named):
@@ -181,7 +183,8 @@ def test_every_module_that_the_oracle_imports_decides_its_truth():
         "harness/results/sealed.py",
         "harness/results/sources.py",
         "harness/results/writing.py",
-    }  # the version, which files these are, whose a temporary file is, and how a file is read and replaced
+        "harness/spreading/__init__.py",
+    }  # the version, which files these are, whose a temporary file is, how a file is read and replaced, and who answers
     assert "surfaces/evaluation.py" in reached("harness.oracle")
     assert reached("harness.oracle") - says_which <= sources.hashes(*TRUTH).keys()
 
@@ -236,7 +239,7 @@ def test_settings_of_drivers_and_the_cores_are_told_apart(monkeypatch):
     before = identity.common([], timed=True)
     monkeypatch.setenv("LP_NUM_THREADS", "1")
     monkeypatch.setenv("POCL_KERNEL_CACHE", "0")  # as the harness itself sets it
-    monkeypatch.setattr(identity, "cores", lambda: 1024)
+    monkeypatch.setattr(host, "cores", lambda: 1024)
     after = identity.common([], timed=True)
     assert after["settings"] == before["settings"] | {"LP_NUM_THREADS": "1"}
     assert after["cores"] == 1024

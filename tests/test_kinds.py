@@ -130,7 +130,20 @@ def test_knobs_and_triangles_count_although_they_are_in_no_programs_text():
         for knobs in ({}, {"GROUPED": 0})
         for batches in ((), (batch,), (moved,))
     ]
+    own += [dataclasses.replace(own[0], tables={"bounds": np.full(2, value)}) for value in (1.0, 2.0)]
     assert len({one.hash for one in own}) == len(own)
+
+
+def test_a_frames_hash_holds_every_program_and_table_of_it():
+    mine = program("rays")
+    other = dataclasses.replace(mine, sections=mine.sections[1:])
+    frames = [
+        Programs((), mine, others, {}, tables=tables)
+        for others in ((), (mine,), (other,))
+        for tables in ({}, {"bounds": np.ones(2)})
+    ]
+    assert len({frame.frame_hash for frame in frames}) == len(frames)
+    assert of_checks(mine).frame_hash is None
 
 
 def test_a_prepass_is_launched_over_the_tiles_that_its_own_program_was_made_with(monkeypatch):

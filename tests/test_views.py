@@ -15,7 +15,7 @@ from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes import views as viewsets
 from harness.scenes.camera import camera_for, distance_of, meets, rays_of
-from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
+from harness.scenes.views import AngleChoice, DirectionChoice, PathChoice, along_path, by_angle, by_direction
 
 CONFIG = """title = "t"
 surfaces = ["sphere"]
@@ -51,6 +51,10 @@ def test_a_config_names_angles_and_directions_beside_views_of_its_own(tmp_path: 
         ("[directions]\ncount = 0\n", 6, "outside"),
         ("[directions]\nfov = 180\n", 6, "outside"),
         ("[directions]\nsed = 1\n", 6, "did you mean 'seed'"),
+        ("[path]\nframes = 1\n", 6, "outside [2, 10000]"),
+        ("[path]\nturn = 0\n", 5, "the camera stands still"),
+        ("[path]\nrise = 90\n", 5, "the camera rises to an elevation of 91.5 degrees; it can from -90 to 90"),
+        ('[[view]]\nname = "frame 01"\n[path]\n', 5, "'frame 01' is named twice"),
         ('[[view]]\nname = "a"\nelevation = 91\n', 7, "outside [-90, 90]"),
         ('[[view]]\nname = "a"\nazimuth = inf\n', 7, "finite"),
     ],
@@ -92,7 +96,26 @@ def test_the_seed_alone_decides_the_directions() -> None:
     assert np.allclose(rotation @ rotation.T, np.eye(3)) and np.linalg.det(rotation) == pytest.approx(1.0)
 
 
-EVERY = [*by_angle(AngleChoice([0, 18, 90, 180], azimuth=-70)), *by_direction(DirectionChoice(24, 9))]
+def test_a_path_goes_from_its_start_to_its_end_and_shows_nothing_twice(tmp_path: Path) -> None:
+    text = "[path]\nframes = 8\nazimuth = 90\nelevation = -20\nrise = 40\nfov = 20\ndistance = 4\n"
+    views = _load(tmp_path, text).config.view
+    assert [view.name for view in views] == [f"frame {i}" for i in range(1, 9)]
+    assert [view.azimuth for view in views] == [90, 135, 180, -135, -90, -45, 0, 45]
+    assert [view.elevation for view in views] == [-20, -15, -10, -5, 0, 5, 10, 15]
+    assert {(view.set, view.fov, view.distance) for view in views} == {("path", 20.0, 4.0)}
+    half = along_path(PathChoice(frames=3, turn=-60.0))
+    assert [(view.name, view.azimuth, view.elevation) for view in half] == [
+        ("frame 1", 30.0, 30.0),
+        ("frame 2", 10.0, 30.0),
+        ("frame 3", -10.0, 30.0),
+    ]
+
+
+EVERY = [
+    *along_path(PathChoice(4, rise=-100.0)),
+    *by_angle(AngleChoice([0, 18, 90, 180], azimuth=-70)),
+    *by_direction(DirectionChoice(24, 9)),
+]
 
 
 @pytest.mark.parametrize("view", EVERY, ids=lambda view: view.name)

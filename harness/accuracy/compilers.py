@@ -34,9 +34,10 @@ from numpy.typing import NDArray
 from harness.accuracy.judge import FAR
 from harness.contract import Domain, Hits, Precision, Program, RayStatus, Surface
 from harness.devices.discovery import discover_devices
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import ListedCheck
+from harness.devices.steps import Executor
 from harness.kernels.assemble import Language
 from harness.oracle.clip import clip_many
 from harness.scenes.camera import scene_radius
@@ -96,7 +97,7 @@ class SecondBuild:
             return None
 
 
-def with_listed_rays(executor: LocalExecutor, rays: NDArray[np.float32]) -> Run:
+def with_listed_rays(executor: Executor, rays: NDArray[np.float32]) -> Run:
     """Return how the second build of a program of listed rays, float32[n, 6], is run."""
     return lambda device, programs, index: executor.check(device, ListedCheck(programs[0], rays[index])).answer
 

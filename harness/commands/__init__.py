@@ -30,6 +30,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "publish": {
         "publish": "make a static site from many runs: who wins where, with pictures and the data; runs nothing"
     },
+    "cluster": {"worker": "offer this machine's devices and cores to runs with --cluster"},
     "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",

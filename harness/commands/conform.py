@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 from harness import conformance, console
 from harness.commands import Add
-from harness.commands.options import add_timeout, methods_of, named_surface
+from harness.commands.options import add_jobs, add_timeout, methods_of, named_surface
 from harness.conformance import Finding
 from harness.contract import PRECISIONS, CellStatus, plural
 from harness.devices.discovery import usable_devices
@@ -33,6 +33,7 @@ def add_parsers(add: Add) -> None:
         help=f"may be repeated; all: every one (default: {', '.join(conformance.TYPICAL)})",
     )
     parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
+    add_jobs(parser)
     add_timeout(parser)
     parser.set_defaults(run=_conform)
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import Any
 
 from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
+from harness.commands.options import add_jobs, add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
@@ -22,6 +25,7 @@ from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
 from harness.running.failures import first_line
+from harness.running.fleet import Fleet
 from harness.running.run import Loaded, Read, load, read, remarks, run
 
 FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; reports.for_papers.files writes them
@@ -39,6 +43,12 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
+    help_ = (
+        "run on the devices of a Dask cluster: HOST:PORT of its scheduler, local or local:N for one on this machine "
+        "with N cores for the oracle, or a TOML file for Slurm"
+    )
+    parser.add_argument("--cluster", metavar="WHERE", help=help_)
+    add_jobs(parser)
     add_wait(parser)
     add_yes(parser)
     parser.set_defaults(run=_run)
@@ -152,9 +162,21 @@ def _state(cell: experiments.CellFacts) -> str:
 
 def _run(options: argparse.Namespace) -> int:
     printer = Printer()
-    again = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
-    found = run(_read(options, printer), options.runs, typed(), watcher=printer, **again)
+    again: dict[str, Any] = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
+    given = _read(options, printer)
+    with contextlib.ExitStack() as held:
+        if options.cluster is not None:
+            again["fleet"] = held.enter_context(_cluster(options.cluster, given, printer))
+        found = run(given, options.runs, typed(), watcher=printer, **again)
     return 3 if found.unfinished or found.lost else 0
+
+
+def _cluster(where: str, given: Read, printer: Printer) -> AbstractContextManager[Fleet]:
+    """Open the cluster that --cluster names, for the devices of a config."""
+    from harness.cluster import starting
+
+    wanted = dict.fromkeys(name for part in given.parts for name in part.wanted_devices())
+    return starting.opened(where, list(wanted), printer.warned)
 
 
 def _why(options: argparse.Namespace) -> int | Answer:

@@ -9,7 +9,7 @@ from pathlib import Path
 from harness.commands import Add, telling
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, add_wait, add_yes, history_of, tell, typed, writable
+from harness.commands.options import add_history, add_jobs, add_wait, add_yes, history_of, tell, typed, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import toml_file
@@ -77,6 +77,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     parser.add_argument("--device", action="append", metavar="NAME", help="on this device only; may be repeated")
     parser.add_argument("--force", action="store_true", help="run every cell again")
+    add_jobs(parser)
     add_wait(parser)
     add_yes(parser)
 

@@ -85,6 +85,7 @@ def _method(plugin: Plugin, chosen: Sequence[Surface]) -> listed.MethodFacts:
         source=method.source,
         folder=str(plugin.folder),
         casts=method.casts,
+        rest=method.rest,
         answers=method.answers,
         precisions=method.precisions,
         knobs=[_knob(knob) for knob in method.parameters],

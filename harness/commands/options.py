@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Variant
 from harness.experiment.size import MOST
-from harness.limits import TIMEOUT, Limit
+from harness.limits import JOBS, TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
 from harness.results.writing import SPECIAL, is_special
 from harness.running.trace import Caster, usable_device
@@ -74,6 +74,12 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Add the option that says how long one step may take, such as compiling or casting all rays."""
     help_ = "for one step, which is given up after so long (default: 60)"
     parser.add_argument("--timeout", type=number(TIMEOUT), default=60.0, metavar="SECONDS", help=help_)
+
+
+def add_jobs(parser: argparse.ArgumentParser, what: str = "certify first hits") -> None:
+    """Add the option that says how many processes do `what`; harness.cli hands it to harness.spreading."""
+    help_ = f"processes that {what}, if there is much to do (default: one for each core); 1 starts none"
+    parser.add_argument("--jobs", type=whole(JOBS), metavar="N", help=help_)
 
 
 def add_wait(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from harness.accuracy.judge import undecided_too_many
 from harness.commands import Add
-from harness.commands.options import add_method, add_surface, caster_of, number, surface_of, tell, writable
+from harness.commands.options import add_jobs, add_method, add_surface, caster_of, number, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus, plural
 from harness.experiment.config import AccuracyChoice
 from harness.limits import Within
@@ -44,6 +44,7 @@ def add_parsers(add: Add) -> None:
     )
     add_surface(parser)
     _add_files(parser)
+    add_jobs(parser)
     parser.set_defaults(run=_oracle)
 
 

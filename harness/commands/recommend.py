@@ -13,6 +13,7 @@ from harness.commands.answers import recommending
 from harness.commands.answers.recommending import Beside
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import (
+    add_jobs,
     add_surface,
     add_wait,
     add_yes,
@@ -83,6 +84,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--seconds", type=number(SECONDS), default=USUAL["seconds"], metavar="S", help=seconds)
     parser.add_argument("--seed", type=whole(SEED), default=USUAL["seed"], help="of the views (default: 1)")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
+    add_jobs(parser)
     add_wait(parser)
     add_yes(parser, "checks")
     page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"

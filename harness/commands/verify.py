@@ -11,7 +11,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import verifying
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import whole
+from harness.commands.options import add_jobs, whole
 from harness.contract import plural
 from harness.limits import SEED
 from harness.verifying.checks import CHECKS, Verified, verify
@@ -33,6 +33,7 @@ def add_parsers(add: Add) -> None:
     sample = "rows whose truth is certified anew: a number, a share as 1%%, or all (default: 20)"
     parser.add_argument("--sample", type=_sample, default=_sample(USUAL_SAMPLE), metavar="N", help=sample)
     parser.add_argument("--seed", type=whole(SEED), default=1, help="of the sample (default: 1)")
+    add_jobs(parser)
     add_json(parser)
     parser.set_defaults(run=_verify)
 

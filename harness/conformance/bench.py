@@ -9,10 +9,12 @@ from typing import Any
 from harness.conformance.cases import Bench, Finding, not_checked
 from harness.conformance.examine import EXAMINATIONS, Located
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Surface
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check
+from harness.devices.steps import Executor
 from harness.experiment.kinds import of_method
+from harness.kernels.assemble import lanes_on
 from harness.plugins import Catalog, Plugin
 
 
@@ -22,14 +24,15 @@ def checkable(catalog: Catalog) -> list[str]:
     return [name for name, method in answering.items() if of_method(method).hard_entries]
 
 
-def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
+def bench_on(executor: Executor, info: DeviceInfo) -> Bench:
     """Make the bench that runs kernels in the executor's worker for a device. Its `run` raises CellError."""
 
     def run(check: Check[Any]) -> Any:
         """Build the programs of a check, run it, and return its answer."""
         return executor.check(info.name, check).answer
 
-    return Bench(info.name, LANGUAGES[info.name.partition(":")[0]], info.float64, run)
+    language = LANGUAGES[info.name.partition(":")[0]]
+    return Bench(info.name, language, info.float64, run, lanes_on(language, info))
 
 
 def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterator[tuple[str, Finding]]:

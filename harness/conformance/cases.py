@@ -17,6 +17,7 @@ from harness.contract import Box, CellStatus, Hits, Precision, Program, Surface,
 from harness.devices.messages import Check
 from harness.experiment.kinds import MethodKind, of_method
 from harness.kernels.assemble import Language, method_program
+from harness.kernels.sections import Lanes
 from harness.oracle import first_hits
 from harness.plugins import Plugin
 from harness.scenes.camera import camera_for, rays_of, scene_radius
@@ -84,12 +85,16 @@ class Case:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """Run kernels on one device: `run` builds the programs of a check, runs it and returns its answer."""
+    """Run kernels on one device: `run` builds the programs of a check, runs it and returns its answer.
+
+    lanes: how lanes of tiles lie on the device's work items, as lanes_on chooses; None: as on a processor's
+    """
 
     device: str
     language: Language
     float64: bool
     run: Callable[[Check[Any]], Any]
+    lanes: Lanes | None = None
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
         """Return the hits [n] of a case's rays by a method with some of its knobs turned; impossible ones are INVALID.
@@ -98,7 +103,7 @@ class Bench:
         """
         kind = of_method(plugin.method)
         stated = plugin.method, plugin.folder, plugin.variant(knobs), case.surface, precision, self.language
-        programs = tuple(method_program(*stated, entry) for entry in kind.hard_entries)
+        programs = tuple(method_program(*stated, entry, lanes=self.lanes) for entry in kind.hard_entries)
         answered = [self.run(check) for check in _checks(kind, programs, case)]
         hits = Hits(**{name: np.concatenate([vars(part)[name] for part in answered]) for name in vars(answered[0])})
         return validated(hits, case.surface.domain, case.rays)

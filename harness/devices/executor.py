@@ -2,13 +2,12 @@
 
 A worker that dies, hangs, holds too much memory or answers nonsense is ended, and started again for the next step. A
 device that cannot be opened again is given up after a few tries, so that it does not cost each further cell a minute.
-The runner needs no more of an executor than the methods of LocalExecutor, so that another executor may send cells
-elsewhere.
+What the runner and all others need of an executor is `harness.devices.steps.Executor`; harness.cluster has another one,
+which takes steps to machines of a cluster.
 """
 
 from __future__ import annotations
 
-import signal
 import subprocess
 import threading
 from collections import Counter
@@ -23,6 +22,7 @@ from harness.devices import serving
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.probes import Probes
+from harness.hosting.process import explained
 
 if TYPE_CHECKING:
     from harness.devices.fingerprint import Fingerprint
@@ -68,6 +68,8 @@ class LocalExecutor:
     A worker that takes the place of one that was lost opens its device first. Where REOPENINGS of them in a row cannot,
     the device is given up: each further step raises CellError at once.
     """
+
+    moves = 0  # a worker that takes the place of another one is on the same machine
 
     def __init__(self, timeout: float, share: float = memory.SHARE) -> None:
         self._timeout, self._share = timeout, share
@@ -139,6 +141,10 @@ class LocalExecutor:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
+
+    def holds(self, key: str) -> bool:
+        """Tell whether a frame is kept ready under `key`."""
+        return key in self._warm
 
     def release(self, device: str, key: str) -> None:
         """Free what the frame under `key` holds on its device; do nothing if no frame is kept there.
@@ -237,7 +243,7 @@ class LocalExecutor:
                 reason = f"{operation} took longer than {seconds:g} s, and its answer did not come whole; killed"
                 raise CellError(CellStatus.TIMEOUT, reason) from None
             when = DURING.get(operation, f"during {operation}")
-            raise CellError(CellStatus.CRASHED, f"the worker {_explain(code)} {when}") from None
+            raise CellError(CellStatus.CRASHED, f"the worker {explained(code)} {when}") from None
         except CellError:
             raise
         except Exception as error:  # what is unpickled may raise anything
@@ -251,10 +257,3 @@ class LocalExecutor:
         if outcome == "broken":
             self._lose(device)
         raise CellError(CellStatus.FAILED, str(result))
-
-
-def _explain(exit_code: int) -> str:
-    if exit_code < 0:
-        name = signal.Signals(-exit_code).name.removeprefix("SIG")
-        return f"was killed by signal {name}"
-    return f"ended with exit code {exit_code}"

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+
+from harness.hosting.process import cores as cores  # a software device has no more
 
 # How the names of variables begin that drivers and compilers read
 SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "GALLIUM_", "MESA_", "CUDA_", "__GL_")
@@ -23,12 +27,21 @@ def processor() -> str:
         return platform.processor() or platform.machine()
 
 
-def cores() -> int | None:
-    """Count the processor's cores that this process may use: a software device has no more."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-
-
 def settings() -> dict[str, str]:
     """Return the variables by which a user changes drivers and compilers, without those that the harness sets."""
     chosen = {name: value for name, value in os.environ.items() if name.startswith(SETTINGS)}
     return {name: value for name, value in sorted(chosen.items()) if OURS.get(name) != value}
+
+
+@dataclass(frozen=True, eq=False)
+class Host:
+    """Hold what of the machine that holds a device decides what is found there: see processor, cores and settings."""
+
+    processor: str
+    cores: int | None
+    settings: Mapping[str, str]
+
+
+def this_host() -> Host:
+    """Return what is so of this machine, for this process."""
+    return Host(processor(), cores(), settings())

@@ -41,6 +41,7 @@ from harness.kernels.sections import TileStage
 T, ANSWER = 1, 2  # places of outputs among BUFFERS
 NO_ANSWER = -1  # what a pixel reads as that no stage answers, or not validly
 COUNTS = 64  # counters
+RESIDENT = 4096  # work items of a step for each compute unit of a GPU: twice what it holds at once
 GROUPS_PER_UNIT = 32  # work groups that take tiles, for each compute unit of a processor
 BUFFERS = (0, 1, 2, 3, 4, 5, 6, 7)  # camera, t, answer, queue, counts, entries, fourths, rays: of each step
 TILE_STAGES = get_args(TileStage)
@@ -59,6 +60,8 @@ class Plan:
     items: work items that share a tile, or in stage rest a pixel
     group: work items of a work group; 1: a processor's, of which few run at once
     turns: tiles or pixels that each work item is to take one after the other
+    parts: of a tile in stage finish, each taken by itself
+    opened: whether stage packets leaves pixels of open tiles to stage rest
     """
 
     side: int
@@ -69,6 +72,8 @@ class Plan:
     items: int
     group: int
     turns: int
+    parts: int
+    opened: bool
 
     @property
     def sides(self) -> list[int]:
@@ -85,12 +90,14 @@ class Plan:
 def plan_of(program: Program) -> Plan:
     """Read the plan that a program was made with, which another revision's may have chosen otherwise."""
 
-    def told(name: str) -> int:
-        return int(program.text.partition(f"#define {name} ")[2].split()[0])
+    def told(name: str, otherwise: str = "") -> int:
+        _, _, after = program.text.partition(f"#define {name} ")
+        return int((after or otherwise).split()[0])
 
     kept = told("OPEN_RECORD") + told("SINGLE_RECORD")
     shape = told("TILE"), told("LEVELS"), told("GRID")
-    return Plan(*shape, told("QUEUE_RECORD"), kept, told("TILE_ITEMS"), told("TILE_GROUP"), told("TILE_TURNS"))
+    items = told("TILE_ITEMS"), told("TILE_GROUP"), told("TILE_TURNS"), told("FINISH_PARTS", otherwise="1")
+    return Plan(*shape, told("QUEUE_RECORD"), kept, *items, told("OPEN_TILES") == 1)
 
 
 def tiles(size: int, side: int) -> int:
@@ -109,15 +116,16 @@ def tile_steps(device: Device, plans: Sequence[Plan], built: Sequence[Built], si
     def step(stage: tuple[Plan, Built], tile: int, level: int, pieces: int) -> Step:
         own, program = stage
         numbers = {"size": size, "tile": tile, "level": level, "ratio": ratio}
-        most = GROUPS_PER_UNIT * units if own.group == 1 else MOST_ITEMS
+        most = GROUPS_PER_UNIT * units if own.group == 1 else RESIDENT * units if device.info.resident else MOST_ITEMS
         return Step(program, BUFFERS, (min(-(-own.items * pieces // own.turns), most), 1), numbers, own.group)
 
     by_level = [(level, side, tiles(size, side)) for level, side in enumerate(plan.sides)]
     last = plan.sides[-1]
     steps = [replace(step(isolate, plan.side, -1, 1), grid=(COUNTS, 1))]
     steps += [step(isolate, side, level, count) for level, side, count in by_level]
-    steps += [step(finish, side, level, count) for level, side, count in by_level]
-    steps.append(step(packets, last, plan.levels, tiles(size, last)))
+    steps += [step(finish, side, level, min(plan.parts, side**2 // 16) * count) for level, side, count in by_level]
+    if not plan.opened:
+        steps.append(step(packets, last, plan.levels, tiles(size, last)))
     cast = step(rest, last, plan.levels + 1, size * size)
     if plans[3].group > 1:
         return [*steps, cast]

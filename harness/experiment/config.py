@@ -40,7 +40,7 @@ from harness.limits import (
 )
 from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
-from harness.scenes.views import AngleChoice, DirectionChoice
+from harness.scenes.views import AngleChoice, DirectionChoice, PathChoice
 
 MEMORY = Within(0.01, 1.0)  # share of the machine's memory
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
@@ -258,10 +258,11 @@ class Config:
     studies: computations of harness.studies
     method: the methods that are compared, each with its knobs
     surfaces, families: names, or ["all"]; of surfaces that is the catalog, and "gallery" and its groups are names too
-    view: the views that are named one by one and, once names are resolved, those of `angles` and `directions`; without
-        any, one default view
+    view: the views that are named one by one and, once names are resolved, those of `angles`, `directions` and `path`;
+        without any, one default view
     angles: a set of views by projection angle
     directions: a set of views spread over the sphere
+    path: the path of a moving camera, whose frames are a set of views
     sizes: pixels per side
     samples_per_pixel: rays through a pixel, in a regular pattern
     precisions: of the numbers that kernels compute with
@@ -292,6 +293,7 @@ class Config:
     view: Annotated[list[View], Distinct(_names)] = field(default_factory=list)
     angles: Annotated[AngleChoice | None, Distinct(_angles)] = None
     directions: DirectionChoice | None = None
+    path: PathChoice | None = None
     sizes: Annotated[list[Annotated[int, PIXELS]], Distinct()] = field(default_factory=lambda: [256])
     samples_per_pixel: Annotated[list[int], OneOf((1, 4, 9, 16)), Distinct()] = field(default_factory=lambda: [1])
     precisions: Annotated[list[Precision], Distinct()] = field(default_factory=lambda: ["float32"])

@@ -8,28 +8,30 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from harness.devices.host import cores, processor, settings
+from harness.devices.host import Host, this_host
 from harness.plugins import Catalog
 from harness.results import sources
 
 HASHED = ("program", "program order", "methodology", "method")
 
 
-def common(folders: Iterable[Path], timed: bool) -> dict[str, Any]:
+def common(folders: Iterable[Path], timed: bool, host: Host | None = None) -> dict[str, Any]:
     """Return what every cell's identity holds beside its question and program; `folders` are its methods'.
 
-    The number of cores decides times only. So the identity of a cell that is not timed is the same on more of them.
+    `host` is the machine of the cell's device; None: this one. The number of cores decides times only. So the identity
+    of a cell that is not timed is the same on more of them.
     """
     own: dict[str, str] = {}
     for folder in folders:
         own |= _of_method(folder)
+    there = host or this_host()
     return {
         "methodology": sources.methodology(),
         "method": own,
         "packages": sources.packages(),
-        "settings": settings(),
-        "processor": processor(),
-        "cores": cores() if timed else None,
+        "settings": dict(there.settings),
+        "processor": there.processor,
+        "cores": there.cores if timed else None,
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import random
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -21,6 +21,7 @@ from harness.contract import (
     View,
     digest,
 )
+from harness.devices.host import Host
 from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
@@ -107,7 +108,13 @@ def _unloaded(cell: Cell, catalog: Catalog) -> str | None:
 
 
 def _planned(
-    cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool, shared: Shared
+    cell: Cell,
+    info: DeviceInfo | None,
+    catalog: Catalog,
+    experiment: Experiment,
+    timed: bool,
+    shared: Shared,
+    host: Host | None,
 ) -> Planned:
     method = catalog.get(cell.variant.method).method
     kind = kinds.of_cell(cell, method)
@@ -130,7 +137,8 @@ def _planned(
     timed = timed and kind.is_timed
     texts = {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)}
     common = shared.once(
-        ("common", names, timed), lambda: identities.common((catalog.get(name).folder for name in names), timed)
+        ("common", names, timed, host),
+        lambda: identities.common((catalog.get(name).folder for name in names), timed, host),
     )
     identity = {
         **{name: shared.facts(said) for name, said in kind.question(cell, experiment.config, planned.is_timed).items()},
@@ -160,17 +168,19 @@ def plan(
     found: list[DeviceInfo],
     timed: bool = True,
     tell: Callable[[str], None] = lambda _: None,
+    hosts: Mapping[str, Host] | None = None,
 ) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    `tell` hears of each cell before its programs are made, since a surface's tables may take seconds. Raises
-    FirsthitError where none of the devices that the config names is among those `found`.
+    `hosts` are the machines of devices that are not this one's, by the devices' names. `tell` hears of each cell before
+    its programs are made, since a surface's tables may take seconds. Raises FirsthitError where none of the devices
+    that the config names is among those `found`.
     """
     cells, planned, shared = grid(experiment, catalog, found), [], Shared()
     total = cells_of(experiment, catalog, found)
     for number, (cell, info) in enumerate(cells, 1):
         tell(f"preparing [{number}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
-        planned.append(_planned(cell, info, catalog, experiment, timed, shared))
+        planned.append(_planned(cell, info, catalog, experiment, timed, shared, (hosts or {}).get(cell.device)))
     return planned
 
 

@@ -25,7 +25,7 @@ from harness.limits import Distinct, Known
 from harness.plugins import Catalog, Plugin
 from harness.scenes.choice import cut, scenes_of
 from harness.scenes.model import Scene
-from harness.scenes.views import by_angle, by_direction
+from harness.scenes.views import along_path, by_angle, by_direction
 from surfaces.words import name_problem
 
 MOST_VARIANTS = 100_000  # of one method
@@ -90,10 +90,16 @@ def _collection(config: Config, file: ConfigFile) -> Experiment:
 
 
 def _with_all_views(config: Config, file: ConfigFile) -> Config:
-    """Add the views of `angles` and `directions`. Raises FirsthitError where two have one name, or show the same."""
+    """Add the views of `angles`, `directions` and `path`.
+
+    Raises FirsthitError where two have one name, or show the same, and where the path cannot be gone.
+    """
     views = [*config.view]
     views += by_angle(config.angles) if config.angles else []
     views += by_direction(config.directions) if config.directions else []
+    if config.path:
+        with _placed(file, ("path",)):
+            views += along_path(config.path)
     if problem := Distinct().broken([view.name for view in views]):
         raise file.error(("view",), f"view: {problem}")
     seen: dict[View, str] = {}

@@ -350,7 +350,8 @@ def _unraced(planned: Planned, pair: _Pair, most_wrong: float) -> Judged | None:
         reason = f"the other revision skips it: {former.skip}" if former else "the other revision has no such cell"
         return replace(base, verdict=Verdict.NEW, reason=reason)
     assert planned.timed and pair.before
-    if former.programs.timed.hash == planned.timed.hash:
+    assert planned.casting
+    if former.programs.frame_hash == planned.casting.programs.frame_hash:
         return replace(base, reason=SAME)
     if wrong := _unfit(pair.now, most_wrong):
         return replace(base, verdict=Verdict.INCOMPARABLE, reason=f"{wrong} (now)")

@@ -157,13 +157,27 @@ def _batches(casting: Any, folder: Path, name: str) -> list[str]:
     return files
 
 
+def _tables(casting: Any, folder: Path, name: str) -> dict[str, str]:
+    """Write each table that belongs to a casting's programs into a file of `folder`, and return the paths by name."""
+    tables = getattr(casting, "tables", None)
+    if tables is None:  # tiles came before castings told their tables
+        frame = casting.frame() if getattr(casting.timed, "entry", None) == "isolate" else None
+        tables = {"fourths": frame.fourths} if frame else {}
+    files = {}
+    for i, (table, values) in enumerate(tables.items()):
+        files[table] = str(folder / f"{name}-table-{i}.npy")
+        np.save(files[table], values)
+    return files
+
+
 def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]:
     """Return what `harness.gate.revision.Former` holds of a cell, as far as this revision says it."""
     casting, skip = getattr(planned, "casting", None), planned.skip
-    variant, batches = getattr(planned.cell, "variant", None), []
+    variant, batches, tables = getattr(planned.cell, "variant", None), [], {}
     try:
         batches = _batches(casting, folder, name)
-    except FirsthitError as error:  # a mesh that cannot be made
+        tables = _tables(casting, folder, name) if casting else {}
+    except FirsthitError as error:  # a mesh or a table that cannot be made
         skip = str(error)
     method = catalog.get(variant.method).method if variant else None
     before = getattr(planned, "prepass", None)  # where it is in a revision without castings
@@ -176,6 +190,7 @@ def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]
         "others": [_json(program) for program in others],
         "second": _json(second) if second else None,
         "batches": batches,
+        "tables": tables,
         "parameters": dict(variant.parameters) if variant else {},
         "method": variant.method if variant else None,
         "claims": sorted(method.claims) if method else None,

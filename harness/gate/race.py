@@ -20,8 +20,9 @@ from dataclasses import replace
 from typing import Literal
 
 from harness.contract import CellStatus, DeviceInfo, plural
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.interface import Timing
+from harness.devices.steps import Executor
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.model import RacedCasting
 from harness.experiment.plan import Planned, shuffled
@@ -47,7 +48,7 @@ def tolerance_of(experiment: Experiment) -> Tolerance | None:
 
 
 def race(
-    base: Judged, planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: LocalExecutor
+    base: Judged, planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: Executor
 ) -> Judged:
     """Return `base` with the verdict of a race between the castings `now` and `then` of a cell.
 
@@ -109,7 +110,7 @@ def _is_narrow(ratio: Ratio, tolerance: Tolerance) -> bool:
 
 
 def _ratio(
-    planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: LocalExecutor
+    planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: Executor
 ) -> Ratio | None:
     """Time both programs once in each round, in random order, and return the ratio of their times, now over then.
 

@@ -224,7 +224,8 @@ def _former(cell: dict[str, Any]) -> Former:
     )  # beams once had no program of their own
     others = tuple(map(_program, cell["others"]))
     batches = tuple(_batch(check, file) for check, file in zip(checks, cell["batches"], strict=False))
-    programs = Programs(checks, timed, others, cell["parameters"], batches, second)
+    tables = {name: np.load(file, allow_pickle=False) for name, file in cell["tables"].items()}
+    programs = Programs(checks, timed, others, cell["parameters"], batches, second, tables)
     claims = None if cell["claims"] is None else tuple(cell["claims"])
     return Former(programs, cell["skip"], cell["failure"], cell["method"] or "", claims, cell["identity"])
 

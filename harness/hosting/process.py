@@ -59,6 +59,18 @@ def _not_interrupted() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def explained(exit_code: int) -> str:
+    """Say how a process ended, by its exit code or minus the number of the signal that ended it."""
+    if exit_code < 0:
+        return f"was killed by signal {signal.Signals(-exit_code).name.removeprefix('SIG')}"
+    return f"ended with exit code {exit_code}"
+
+
+def cores() -> int | None:
+    """Count the processor's cores that this process may use; None where the system does not tell."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+
+
 def die_with_parent() -> None:
     """End this process when its parent ends, and before it where memory runs out; only Linux can do so."""
     if sys.platform == "linux":

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Literal
 
 from harness import ROOT
-from harness.contract import FirsthitError, Method, Origin, Precision, Program, Section, Surface, Variant
+from harness.contract import DeviceInfo, FirsthitError, Method, Origin, Precision, Program, Section, Surface, Variant
 from harness.contract import Language as Language
 from harness.kernels.sections import (
     KERNELS,
@@ -98,10 +98,10 @@ def method_program(
     return Program(language, precision, entry, tuple(sections))
 
 
-def lanes_on(language: Language, resident: int | None) -> Lanes:
-    """Choose how lanes lie on work items; `resident` is the device's, as in DeviceInfo."""
-    if resident is not None:
-        return "group"
+def lanes_on(language: Language, device: DeviceInfo | None) -> Lanes:
+    """Choose how lanes lie on a device's work items; on a processor's where none is given."""
+    if device and device.resident is not None:
+        return "warp" if device.name.startswith("opencl:nvidia") else "group"
     return "vector" if language == "cl" else "own"
 
 

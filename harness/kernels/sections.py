@@ -31,9 +31,9 @@ from surfaces.words import suggestion
 
 KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
-# How the 16 lanes of a tile lie on work items: one work item has them all as a vector, 16 of them have one each, or one
-# takes them in turn.
-Lanes = Literal["vector", "group", "own"]
+# How the 16 lanes of a tile lie on work items: one work item has them all as a vector or takes them in turn, or 16 of
+# them have one each, and are a work group or half a warp.
+Lanes = Literal["vector", "own", "group", "warp"]
 TileStage = Literal["isolate", "finish", "packets", "rest"]  # of a frame of tiles, each a program of its own
 
 

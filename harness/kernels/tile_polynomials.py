@@ -191,7 +191,7 @@ def _sure(n: int, lanes: Lanes, above: bool) -> str:
             sure = f"all_lanes({sure})" if lanes == "vector" else sure
         terms.append(f"({sure} ? {1 << j} : 0)")
     text = " | ".join(terms)
-    return f"all_bits({text})" if lanes == "group" else text
+    return f"all_bits({text})" if lanes in ("group", "warp") else text
 
 
 def _exchanged_transform(n: int) -> list[str]:

@@ -7,10 +7,13 @@ behind the operations of glsl/tiles/{lanes,exchange,nets,blocks,tiles}_*:
     lanes   wide                       isolate                                         finish, packets
     ------  -------------------------  ----------------------------------------------  ------------------------------
     vector  vectors of sixteen         a work item has a tile                          a work item has 16 pixels
-    group   a number of the precision  sixteen work items have a tile, and exchange    a work item has a pixel; no
-                                       numbers through local memory                    lane asks another one
-    own     the same                   a work item has a tile, does its lanes in turn  as group; what packets would do
-                                       and halves three polynomials that bound all     is left to the last stage
+    group   a number of the precision  sixteen work items have a tile, and exchange    a work item has a pixel, and asks
+                                       numbers through local memory                    no other one; what packets would
+                                                                                       do is left to the last stage
+    warp    the same                   the same, and exchange them without memory:     as group
+                                       NVIDIA's OpenCL
+    own     the same                   a work item has a tile, does its lanes in turn  as group
+                                       and halves three polynomials that bound all
 
 harness.kernels.tile_polynomials generates what a polynomial's degree decides.
 """
@@ -37,6 +40,7 @@ from harness.kernels.tile_polynomials import macros, to_control, to_powers
 
 STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
+WARPS = 64  # work items of a group whose lanes are halves of warps
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
 RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 40, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
@@ -61,8 +65,8 @@ def stage_program(
     that casts the pixels that are left in stage "rest"; it has the same method's knobs and tables.
 
     `lanes` says who has a tile's sixteen lanes: "vector": a work item, in vectors of sixteen numbers (OpenCL only);
-    "group": sixteen work items, which exchange numbers through local memory where a stage needs it; "own": no lane
-    needs another one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
+    "group", "warp": sixteen work items, which exchange numbers where a stage needs it; "own": no lane needs another
+    one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
     """
     form: Lanes = lanes or ("vector" if language == "cl" else "own")
     sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
@@ -79,7 +83,7 @@ def stage_program(
         sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
-        sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
+        sections += [*_lane_tables(precision, language, form), *files(f"tiles/domain_{domain}.glsl")]
         sections += method_sections(method, folder, variant, surface, precision, language, stage=stage)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
@@ -90,10 +94,12 @@ def _lane_sections(stage: TileStage, precision: Precision, language: Language, l
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
         return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
-    first, exchange = [], "own"
-    if _exchanges(stage, lanes):
-        first, exchange = [f"tiles/memory.{language}"], "group"
-    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/exchange_{exchange}.glsl", "tiles/blocks_one.glsl")
+    first, exchange = [], "exchange_own.glsl"
+    if _exchanges(stage, lanes) and lanes == "group":
+        first, exchange = [f"tiles/memory.{language}"], "exchange_group.glsl"
+    elif _exchanges(stage, lanes):
+        first, exchange = [f"tiles/exchange_warp_{precision}.{language}"], f"exchange_warp.{language}"
+    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/{exchange}", "tiles/blocks_one.glsl")
     return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
@@ -108,7 +114,7 @@ def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
 
 def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
     """Tell whether a stage's work items exchange numbers."""
-    return lanes == "group" and stage == "isolate"
+    return lanes in ("group", "warp") and stage == "isolate"
 
 
 def _shape(
@@ -127,7 +133,8 @@ def _shape(
     items, group = _grouping(stage, lanes)
     shape: dict[str, int | float] = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS}
     shape |= {"TILE_ITEMS": items, "TILE_GROUP": group, "TILE_TURNS": 8 if lanes == "own" else 1}
-    shape |= {"OPEN_TILES": int(lanes == "own"), "LISTED": int(listed)}
+    shape |= {"OPEN_TILES": int(lanes != "vector"), "LISTED": int(listed)}
+    shape |= {"BLOCK_WIDTH": block_width(lanes), "FINISH_PARTS": 16 if lanes in ("group", "warp") else 1}
     shape |= {"REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
     shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
@@ -141,8 +148,13 @@ def _grouping(stage: TileStage, lanes: Lanes) -> tuple[int, int]:
     if lanes == "vector":
         return 1, 1
     if _exchanges(stage, lanes):
-        return 16, 16
+        return 16, 16 if lanes == "group" else WARPS
     return (1, 8) if stage == "isolate" else (16, 64)
+
+
+def block_width(lanes: Lanes) -> int:
+    """Return how many pixels of a row are in a block of sixteen: a GPU writes rows to memory at once."""
+    return 8 if lanes in ("group", "warp") else 4
 
 
 def wide_value(surface: Surface, precision: Precision, language: Language) -> Section:
@@ -158,15 +170,17 @@ def wide_value(surface: Surface, precision: Precision, language: Language) -> Se
     return Section(f"generated: surface {surface.name}, wide_value", text)
 
 
-def _lane_tables(precision: Precision, language: Language) -> list[Section]:
+def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
-    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
+    direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its
+    node's place.
     POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
-    made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
+    width = block_width(form)
+    made = {"LANE_X": [float(k % width) for k in range(16)], "LANE_Y": [float(k // width) for k in range(16)]}
     made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
     made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
     for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):

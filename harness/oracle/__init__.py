@@ -2,10 +2,11 @@
 exists.
 
 `first_hits` sends all rays through a fast path in float64, which accepts only what a rigorous error bound certifies
-(`fast`). The rest go one by one through ball arithmetic of rising precision and exact arithmetic: `slow` for
-polynomials, `transcendental` and `piecewise` for everything else. What none of them can prove is UNDECIDED. `reading`
-turns the parsed formula into a `graph`, of which `program` makes what every number system runs. The proofs share
-nothing with the code that generates kernels, so that an error there cannot hide here.
+(`fast`), in parts that several processes may take (`parts`). The rest go one by one through ball arithmetic of rising
+precision and exact arithmetic: `slow` for polynomials, `transcendental` and `piecewise` for everything else. What none
+of them can prove is UNDECIDED. `reading` turns the parsed formula into a `graph`, of which `program` makes what every
+number system runs. The proofs share nothing with the code that generates kernels, so that an error there cannot hide
+here.
 
 - The float32 numbers of a ray o + t·d are taken as exact rationals; d is not normalised again.
 - A touch is a root of even multiplicity. If f vanishes all along the ray, the answer is a TOUCH at the first t of the
@@ -42,7 +43,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Surface, Truth, TruthStatus, digest
+from harness.contract import FirsthitError, Surface, Truth
 from surfaces.model import is_number
 
 __all__ = ["cached_first_hits", "first_hits"]
@@ -51,19 +52,14 @@ __all__ = ["cached_first_hits", "first_hits"]
 def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Truth:
     """Return the certified first hits at or after `t_min` of rays float32[n, 6]: origins and directions, scene units.
 
-    Raises FirsthitError for rays of another shape or type, with NaN or infinity, or with the direction 0, and for a
-    `t_min` that is negative or not finite.
+    Chunks of the rays are spread as `harness.spreading.over` says; the answers are the same bits wherever they are
+    made on processors of one kind. Raises FirsthitError for rays of another shape or type, with NaN or infinity, or
+    with the direction 0, and for a `t_min` that is negative or not finite.
     """
-    from harness.oracle.classify import classify
+    from harness.oracle.parts import certified
 
     check_rays(rays)
-    t_min = checked_t_min(t_min)
-    solver = _solver(surface)
-    wide = rays.astype(np.float64)
-    lower, upper, status = solver.certify(wide, t_min)
-    first = 0.5 * (lower + upper)
-    estimates = classify(solver.floats, solver.fast.f, solver.noise, surface.domain, wide, first, status, t_min)
-    return Truth(lower, upper, status, *estimates)
+    return certified(surface, rays, checked_t_min(t_min))
 
 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
@@ -111,52 +107,3 @@ def checked_t_min(t_min: float) -> float:
     if not (np.isfinite(value) and value >= 0.0):
         raise FirsthitError(f"t_min must be finite and not negative, not {value}; rays start at 0")
     return value + 0.0
-
-
-class _Solver:
-    """Hold a surface's fast and slow paths, which are built once."""
-
-    def __init__(self, surface: Surface) -> None:
-        import surfaces
-        from harness.oracle.enclosure import Enclosure
-        from harness.oracle.fast import FastSolver
-        from harness.oracle.floats import FloatFunction
-        from harness.oracle.noise import Noise
-        from harness.oracle.program import program_of
-        from harness.oracle.reading import graph_of
-        from harness.oracle.slow import AlgebraicSolver
-        from harness.oracle.transcendental import SmoothSolver
-
-        graph = graph_of(surfaces.tape_of(surface))
-        program = program_of(graph)
-        self.fast = FastSolver(graph, surface.domain)
-        self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
-        self.noise = Noise(surface)
-        smooth = SmoothSolver(graph, surface.domain)
-        self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
-        if program.is_polynomial:  # coefficients in several fields Q(√d): the other one decides more
-            self.slow = [AlgebraicSolver(program, surface.domain), *([smooth] if smooth.exact else [])]
-
-    def certify(
-        self, rays: NDArray[np.float64], t_min: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
-        """Return lower, upper and status of rays float64[n, 6] that hold float32 values."""
-        fast = self.fast.first_hits(rays, t_min)
-        for row in np.flatnonzero(~fast.decided):
-            for solver in self.slow:
-                hit = solver.first_hit(rays[row].tolist(), t_min)
-                if hit.status != TruthStatus.UNDECIDED:
-                    break
-            fast.lower[row], fast.upper[row], fast.status[row] = hit.lower, hit.upper, hit.status
-        return fast.lower, fast.upper, fast.status
-
-
-_SOLVERS: dict[str, _Solver] = {}
-
-
-def _solver(surface: Surface) -> _Solver:
-    """Return the surface's solver, which is built once."""
-    key = digest(surface.identity)
-    if key not in _SOLVERS:
-        _SOLVERS[key] = _Solver(surface)
-    return _SOLVERS[key]

@@ -15,6 +15,7 @@ multiplicity.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +48,14 @@ class FastAnswers:
     lower: Floats
     upper: Floats
 
+    @staticmethod
+    def joined(parts: Sequence[FastAnswers]) -> FastAnswers:
+        """Return the answers of several blocks of rays, one after the other."""
+        return FastAnswers(*(np.concatenate([getattr(part, name) for part in parts]) for name in _NAMES))
+
+
+_NAMES = tuple(FastAnswers.__annotations__)
+
 
 class FastSolver:
     """Find first hits by float64 ball arithmetic on all rays at once."""
@@ -60,14 +69,14 @@ class FastSolver:
         self.factors = [
             (Enclosure(program_of(graph, factor, lengths=True)), multiplicity) for factor, multiplicity in factors
         ]
+        self.block = max(FEWEST, BLOCK * LONG // max(LONG, len(self.f.program.instructions)))  # rays at a time
         small = program.is_polynomial and program.degree <= MOST_DEGREE
         self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)
 
     def first_hits(self, rays: Floats, t_min: float) -> FastAnswers:
         """Return the answers for rays float64[n, 6] that hold float32 values."""
-        size = max(FEWEST, BLOCK * LONG // max(LONG, len(self.f.program.instructions)))
-        blocks = [self._block(rays[k : k + size], t_min) for k in range(0, max(len(rays), 1), size)]
-        return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
+        starts = range(0, max(len(rays), 1), self.block)
+        return FastAnswers.joined([self._block(rays[k : k + self.block], t_min) for k in starts])
 
     def _block(self, rays: Floats, t_min: float) -> FastAnswers:
         """Return the answers for a block of rays."""

@@ -31,6 +31,7 @@ from harness.results.writing import DAY
 FORMAT = 1
 FLUSH = 30.0  # seconds
 AGAIN = "again.jsonl"
+TRIES = 100  # to open a file whose folder others remove
 Sample = tuple[float, float | None, float]  # ms by the host's clock, by the device's, and seconds that taking it took
 
 
@@ -53,7 +54,7 @@ class Session:
     """Hold the file of one interleaved session, and what it says of its cells.
 
     name: the session's, which its rows tell
-    sitting: how many processes worked on it before this one
+    sitting: how many processes worked on it before this one, and how often its samples moved to another machine
     next_round: the number of the round that follows all that are kept
     """
 
@@ -95,6 +96,11 @@ class Session:
             else:
                 self.remove()
 
+    def sit_again(self) -> None:
+        """Begin another sitting: samples that follow are taken by another process, or on another machine."""
+        self.sitting += 1
+        self._append({"format": FORMAT, "sitting": self.sitting})
+
     def flush(self) -> None:
         """Wait until all that was kept is on the disk."""
         if self._file is not None:
@@ -130,16 +136,19 @@ class Begun:
         self.folder = folder / "begun"
         self._sessions = [_read(path) for path in sorted(self.folder.glob("*.jsonl")) if path.name != AGAIN]
         self._again = _wanted(self.folder / AGAIN)
+        self._in_use: set[Path] = set()  # of sessions that a runner works on; several may do so side by side
 
     def session(self, keys: Collection[str], new: str) -> Session:
         """Return the session that most of these cells were begun in, to go on with; one called `new` where none was.
 
         What checking found in other sessions counts too. Their samples do not, since those of two sessions were not
-        taken in turn.
+        taken in turn. A session that another runner works on is one of the others.
         """
         found = [(session, len(session.cells.keys() & keys)) for session in self._sessions]
-        best = max(found, key=lambda one: one[1], default=(Session(Path()), 0))
+        free = [one for one in found if one[0].path not in self._in_use]
+        best = max(free, key=lambda one: one[1], default=(Session(Path()), 0))
         session = best[0] if best[1] else Session(self.folder / f"{new}.jsonl")
+        self._in_use.add(session.path)
         for other, count in found:
             if count and other is not session:
                 for key in other.cells.keys() & keys - session.cells.keys():
@@ -177,8 +186,9 @@ class Begun:
 
         A file that names other cells too, which are timed apart from these by now, stays for them.
         """
+        self._in_use.discard(session.path)
         for one in {*self._sessions, session}:
-            if all(self._has_ended(key, has_row) for key in one.cells):
+            if one.path not in self._in_use and all(self._has_ended(key, has_row) for key in one.cells):
                 self._sessions = [other for other in self._sessions if other is not one]
                 one.remove()
 
@@ -227,8 +237,14 @@ def _remove(path: Path) -> None:
 
 def _opened(path: Path) -> int:
     """Open a file to append to; a last line that was torn is ended first."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+    for tried in range(TRIES):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+            break
+        except FileNotFoundError:  # the folder went with the last file of another session
+            if tried == TRIES - 1:
+                raise
     length = os.fstat(file).st_size
     if length and os.pread(file, 1, length - 1) != b"\n":
         _write(file, b"\n")

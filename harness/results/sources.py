@@ -30,6 +30,8 @@ NOT_DECIDING = {
     "harness/start.py": "starts the command",
     "harness/py.typed": "says that type checkers may read the annotations",
     "surfaces/py.typed": "says that type checkers may read the annotations",
+    "harness/cluster": "takes steps to devices elsewhere, and changes none of them",
+    "harness/running/fleet.py": "says what offers devices elsewhere",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
     "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
-from harness.devices.executor import LocalExecutor
+from harness.devices.steps import Executor
 from harness.experiment.config import Config
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog
@@ -24,7 +24,7 @@ def rows_of(
     config: Config,
     catalog: Catalog,
     store: Store,
-    executor: LocalExecutor,
+    executor: Executor,
     watcher: Watcher,
     lock: Lock,
     force: bool = False,

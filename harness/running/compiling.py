@@ -92,7 +92,7 @@ def _programs(plugin: Plugin, surface: Surface, info: DeviceInfo, precision: Pre
     language = LANGUAGES[info.name.partition(":")[0]]
     stated, lanes = (
         (plugin.method, plugin.folder, variant, surface, precision, language),
-        lanes_on(language, info.resident),
+        lanes_on(language, info),
     )
     texts: dict[str, Program] = {entry: method_program(*stated, entry, lanes=lanes) for entry in kind.entries}
     drawn = kind.compiled_drawing(plugin, surface) if precision == "float32" and able(info) else None

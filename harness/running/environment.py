@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any, TypedDict
 from harness import ROOT, __version__
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice, digest
 from harness.devices import host
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
+from harness.devices.steps import Executor
 from harness.results import declared, git, sealed, sources
 from harness.results.writing import write_atomically
 
@@ -69,7 +70,7 @@ def describe() -> dict[str, Any]:
 
 
 def probed(
-    executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
+    executor: Executor, info: DeviceInfo, cache: Path | None = None, again: bool = False
 ) -> tuple[DeviceInfo, Probes | None]:
     """Return the device with the clock that its probes support, and what the probes found.
 
@@ -109,9 +110,7 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
     return Probes(**found), since
 
 
-def fingerprinted(
-    executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
-) -> Fingerprint:
+def fingerprinted(executor: Executor, info: DeviceInfo, cache: Path | None = None, again: bool = False) -> Fingerprint:
     """Return the fingerprint of a device.
 
     With a folder `cache` it is kept there as what `probed` finds is, and taken anew with `again`. What is of the host

@@ -32,17 +32,19 @@ class Settled:
     tried: Mapping[str, Tried] = field(default_factory=dict)
 
 
-def settled(parts: Sequence[Experiment], found: list[DeviceInfo], hears: _Hears) -> Settled:
+def settled(
+    parts: Sequence[Experiment], found: list[DeviceInfo], hears: _Hears, known: Mapping[str, Tried] | None = None
+) -> Settled:
     """Put the name of the fastest of the devices `found` in place of that word, and tell `hears` which it is and why.
 
     Peaks are those that probes found before and that are kept in the user's cache folder, as `firsthit devices` prints
-    them; a device without one is measured, which takes seconds, and kept. Raises FirsthitError, with exit code 3, where
-    no device works.
+    them; a device without one is measured, which takes seconds, and kept. What is `known` of devices elsewhere, by
+    their names, is not measured again. Raises FirsthitError, with exit code 3, where no device works.
     """
     asking = [part for part in parts if FASTEST in part.wanted_devices()]
     if not asking:
         return Settled(tuple(parts))
-    tried = _measured(targets.usable(found, all(map(kinds.only_rasters, asking))), hears)
+    tried = _measured(targets.usable(found, all(map(kinds.only_rasters, asking))), hears, known or {})
     told: dict[str, None] = {}
     made = tuple(_named(part, found, tried, told) if part in asking else part for part in parts)
     for line in told:
@@ -50,12 +52,12 @@ def settled(parts: Sequence[Experiment], found: list[DeviceInfo], hears: _Hears)
     return Settled(made, tried)
 
 
-def _measured(devices: Sequence[DeviceInfo], hears: _Hears) -> dict[str, Tried]:
-    """Probe devices, or take what is kept of them."""
+def _measured(devices: Sequence[DeviceInfo], hears: _Hears, known: Mapping[str, Tried]) -> dict[str, Tried]:
+    """Probe devices, or take what is known or kept of them."""
     folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
-    tried = {}
+    tried = {info.name: known[info.name] for info in devices if info.name in known}
     try:
-        for info in devices:
+        for info in (info for info in devices if info.name not in known):
             if folder and kept_probes(info, folder)[0]:
                 tried[info.name] = probed(executor, info, folder)
                 continue

@@ -6,7 +6,8 @@ Nothing is printed here. A Watcher is told what happens, and may print it.
 from __future__ import annotations
 
 import dataclasses
-from collections import Counter
+import threading
+from collections import ChainMap, Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
@@ -18,7 +19,9 @@ from harness import ROOT, console, memory, studies
 from harness.contract import CellStatus, DeviceInfo, LostDevice, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
+from harness.devices.host import Host
 from harness.devices.probes import Probes
+from harness.devices.steps import Executor
 from harness.experiment import kinds, plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
@@ -29,13 +32,14 @@ from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.lock import locked
 from harness.results.store import Row, Store
-from harness.results.stored import Rows
+from harness.results.stored import Rows, Stored
 from harness.results.writing import sweep_below
 from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, begin, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
 from harness.running.fastest import Tried, settled
+from harness.running.fleet import Fleet
 from harness.running.runner import Runner
 
 
@@ -54,7 +58,8 @@ class Loaded(Read):
     """Hold a config, and all that is needed to plan and run it here."""
 
     devices: list[DeviceInfo]  # of the backends that the config names
-    tried: Mapping[str, Tried] = field(default_factory=dict)  # what was measured to find the fastest, by device
+    tried: Mapping[str, Tried] = field(default_factory=dict)  # what was measured of devices already, by their names
+    hosts: Mapping[str, Host] = field(default_factory=dict)  # machines of devices that are not this one's, by device
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,16 +184,20 @@ def read(
     return Read(whole, tuple(parts), catalog, yes)
 
 
-def load(given: Read, watcher: Watcher | None = None) -> Loaded:
-    """Look for the devices that a config names. Raises FirsthitError for too many cells on the devices found."""
+def load(given: Read, watcher: Watcher | None = None, fleet: Fleet | None = None) -> Loaded:
+    """Look for the devices that a config names, here or in a `fleet`.
+
+    Raises FirsthitError for too many cells on the devices found.
+    """
     hears, parts = watcher or Watcher(), given.parts
     named = {device for part in parts for device in part.wanted_devices()}
     with hears.doing(f"looking for devices to run {given.whole.path} on"):
-        found = discover_devices(named)
-    made = settled(parts, found, hears)
+        found = fleet.devices(named) if fleet else discover_devices(named)
+    hosts, known = (fleet.hosts, fleet.tried) if fleet else ({}, {})
+    made = settled(parts, found, hears, known)
     for part in made.parts:
         check_size(part, given.catalog, found, given.yes)
-    return Loaded(given.whole, made.parts, given.catalog, given.yes, found, made.tried)
+    return Loaded(given.whole, made.parts, given.catalog, given.yes, found, {**known, **made.tried}, hosts)
 
 
 def run(
@@ -200,21 +209,25 @@ def run(
     retry_failed: bool = False,
     wait: bool = False,
     watcher: Watcher | None = None,
+    fleet: Fleet | None = None,
 ) -> Run:
     """Run every cell that has no row yet and store its row below `runs`, in a folder of the config's name.
 
     `command` is what a reader of the results may type to get them again. `force` runs finished cells again,
     `retry_failed` those that failed, timed out or crashed. Where another process writes into one of the folders, `wait`
-    waits until it has ended. A cell that fails is a row; FirsthitError is raised only where no cell can be run, a
-    folder is another's, or a result cannot be written.
+    waits until it has ended. Cells run on the devices of a `fleet`, if there is one, else on this machine's. A cell
+    that fails is a row; FirsthitError is raised only where no cell can be run, a folder is another's, the machines of
+    the fleet cannot be reached any more, or a result cannot be written.
     """
     hears = watcher or Watcher()
     folders = [runs / one.name for one in (given.whole, *given.parts)]
     with locked(folders, command, wait=wait, doing=hears.doing):
-        return _run(load(given, hears), runs, command, force, retry_failed, hears)
+        return _run(load(given, hears, fleet), runs, command, force, retry_failed, hears, fleet)
 
 
-def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher) -> Run:
+def _run(
+    loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher, fleet: Fleet | None
+) -> Run:
     folder = runs / loaded.whole.name
     if loaded.whole.included:
         told = _described(loaded.whole, command, describe())
@@ -223,7 +236,7 @@ def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bo
     again: Again = "everything" if force else "unfinished" if retry_failed else "nothing"
     ended = []
     for part in loaded.parts:
-        ended.append(_run_part(part, loaded, runs, command, again, hears))
+        ended.append(_run_part(part, loaded, runs, command, again, hears, fleet))
         hears.failed((ended[-1].rows + ended[-1].reused).of(UNFINISHED))
         hears.ended(ended[-1])
     lost = tuple(dict.fromkeys(line for one in ended for line in one.lost))
@@ -251,7 +264,15 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
     }
 
 
-def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
+def _run_part(
+    part: Experiment,
+    loaded: Loaded,
+    runs: Path,
+    command: str,
+    again: Again,
+    hears: Watcher,
+    fleet: Fleet | None,
+) -> Run:
     """Run the cells and studies of one config, and write its plan.json."""
     store, environment = Store(runs / part.name), describe()
     executor = LocalExecutor(part.config.budget.timeout, part.config.budget.memory)
@@ -263,7 +284,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             for info in here:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
-            planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
+            planned = _planned(part, loaded, [info for info, _ in tried], tell)
         lost = tuple(f"{info.name}: {info.problem}" for info, _ in tried if isinstance(info, LostDevice))
         for line in lost:
             hears.wrong(line)
@@ -282,13 +303,25 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             hears.wrong(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
-        told = hears.cell, hears.hears_builds
-        rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo, begun)
+        rows, told = Stored(store), (hears.cell, hears.hears_builds, threading.RLock())
+
+        def work(executor: Executor, cells: Sequence[Planned], where: dict[str, Any]) -> None:
+            said = ChainMap(where, environment)
+            Runner(part.config, loaded.catalog, store, executor, said, *told).run(cells, begun, rows)
+
+        if fleet:
+            fleet.run(found.todo, part.config.budget, work)
+        else:
+            work(executor, found.todo, {})
         if reason := cache.unwritten(store.truth):
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
     return Run(store.folder, Rows([rows]), Rows([found.kept]), lost)
+
+
+def _planned(part: Experiment, loaded: Loaded, devices: list[DeviceInfo], tell: Callable[[str], None]) -> list[Planned]:
+    return plan.plan(part, loaded.catalog, devices, tell=tell, hosts=loaded.hosts) if part.variants else []
 
 
 def remarks(part: Experiment) -> list[str]:

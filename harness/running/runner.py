@@ -14,13 +14,15 @@ import itertools
 import math
 import time
 import uuid
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any
 
 from harness.contract import CellStatus, FirsthitError
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.messages import Frame, Warmed
+from harness.devices.steps import Executor
 from harness.experiment.config import Config
 from harness.experiment.kinds import Outcome
 from harness.experiment.plan import Planned, shuffled
@@ -58,7 +60,8 @@ class Runner:
 
     `report` is called with a cell's slot and None when the cell is worked on, and with its slot and row when the row is
     stored. `built` is called with a cell's slot and a line for each program that was built for it, with what the
-    compiler said. `environment` is stored in every row.
+    compiler said. `environment` is stored in every row. Runners that work side by side, each for a device of its own,
+    share a folder and what is begun there, and the lock `one_writer`.
     """
 
     def __init__(
@@ -66,41 +69,44 @@ class Runner:
         config: Config,
         catalog: Catalog,
         store: Store,
-        executor: LocalExecutor,
-        environment: dict[str, Any],
+        executor: Executor,
+        environment: Mapping[str, Any],
         report: Callable[[str, Row | None], None],
         built: Callable[[str, str], None] | None = None,
+        one_writer: AbstractContextManager[Any] | None = None,
     ) -> None:
         self._config, self._catalog, self._store = config, catalog, store
         self._executor, self._environment, self._report = executor, environment, report
         self._built = built
+        self._one_writer: AbstractContextManager[Any] = one_writer or nullcontext()
         self._begun, self._session = Begun(store.folder), Session(store.folder)
+        self._moves = executor.moves
 
-    def run(self, planned: Iterable[Planned], begun: Begun | None = None) -> Stored:
+    def run(self, planned: Iterable[Planned], begun: Begun | None = None, ended: Stored | None = None) -> Stored:
         """Run cells and return their rows, in the order in which they ended; each is read when it is asked for.
 
         Cells that are to be compared with each other are timed in the same interleaved rounds. `begun` is what is kept
-        of the cells; without it they begin anew where nothing is kept. A cell that fails is a row; raises FirsthitError
-        where a row cannot be stored.
+        of the cells; without it they begin anew where nothing is kept. Rows are added to those that `ended` before. A
+        cell that fails is a row; raises FirsthitError where a row cannot be stored.
         """
         self._begun = begun or Begun(self._store.folder)
-        groups: dict[str, list[Planned]] = {}
-        for one in planned:
-            groups.setdefault(one.cell.together, []).append(one)
-        ended = Stored(self._store)
-        for part in (part for group in groups.values() for part in _fitting(group)):
-            for row in self._compare(part):
-                ended.add(row)
+        ended = Stored(self._store) if ended is None else ended
+        for part in (part for group in together(planned) for part in _fitting(group)):
+            rows = self._compare(part)
+            with self._one_writer:
+                for row in rows:
+                    ended.add(row)
         return ended
 
     def _compare(self, group: list[Planned]) -> list[Row]:
         """Check every cell of a group, and then time those together that are to be timed."""
         rows: list[Row] = []
         live: dict[str, _Live] = {}
-        self._session = self._begun.session([p.key for p in group], uuid.uuid4().hex[:16])
+        with self._one_writer:
+            self._session = self._begun.session([p.key for p in group], uuid.uuid4().hex[:16])
         with contextlib.closing(self._session):
             for planned in group:
-                self._report(planned.cell.slot, None)
+                self._tell(planned.cell.slot, None)
                 if planned.skip is not None:
                     rows.append(self._finish(planned, None, CellStatus.SKIPPED, planned.skip))
                     continue
@@ -123,8 +129,13 @@ class Runner:
                 else:
                     live[planned.key] = state
             rows += self._time(live)
-        self._begun.done(self._session, self._store.has)
+        with self._one_writer:
+            self._begun.done(self._session, self._store.has)
         return rows
+
+    def _tell(self, slot: str, row: Row | None) -> None:
+        with self._one_writer:
+            self._report(slot, row)
 
     def _prepare(self, state: _Live) -> str | None:
         """Check the cell and, if it is to be timed, warm its frame. Return why it failed; None where it did not."""
@@ -146,8 +157,10 @@ class Runner:
         finally:
             state.preparing += time.perf_counter() - start
             if self._built:
-                for line in self._executor.builds(planned.cell.device):
-                    self._built(planned.cell.slot, line)
+                lines = self._executor.builds(planned.cell.device)
+                with self._one_writer:
+                    for line in lines:
+                        self._built(planned.cell.slot, line)
 
     def _keep_check(self, state: _Live, seconds: float) -> None:
         """Keep what checking a cell found, the pictures first. Raises FirsthitError where it cannot be written."""
@@ -202,9 +215,9 @@ class Runner:
         since = time.monotonic()
         try:
             for key in shuffled(list(live), self._config.seed, round_number):
-                self._report(live[key].planned.cell.slot, None)
+                self._tell(live[key].planned.cell.slot, None)
                 try:
-                    taken[key] = self._sample(live[key], round_number)
+                    taken[key] = self._sample(live[key], round_number, taken)
                 except CellError as error:
                     errors[key] = error
                 if time.monotonic() - since > LONG_ROUND:
@@ -223,12 +236,20 @@ class Runner:
             self._executor.release(state.planned.cell.device, key)
         return row
 
-    def _sample(self, state: _Live, round_number: int) -> Sample:
-        """Take one sample of a cell's time. Raises CellError where that fails, or the clock tells no time."""
+    def _sample(self, state: _Live, round_number: int, taken: dict[str, Sample]) -> Sample:
+        """Take one sample of a cell's time. Raises CellError where that fails, or the clock tells no time.
+
+        Where another machine or process took it, that is a new sitting, before which those that were `taken` are kept.
+        """
         assert state.warmed and state.frame
         start = time.perf_counter()
         batch = state.warmed.batch
         timing = self._executor.sample(state.planned.cell.device, state.planned.key, state.frame, batch)
+        if self._executor.moves != self._moves:
+            self._moves = self._executor.moves
+            self._session.round(round_number, taken)
+            taken.clear()
+            self._session.sit_again()
         if not 0.0 < timing.wall_ms < math.inf:
             raise CellError(CellStatus.FAILED, f"the clock told {timing.wall_ms:g} ms for a frame")
         told = timing.device_ms if timing.device_ms and 0.0 < timing.device_ms < math.inf else None
@@ -257,13 +278,14 @@ class Runner:
         pictures = state.outcome.pictures if state else None
         if state and state.arrays:
             row["arrays"] = state.arrays
-        try:
-            self._store.write(row, pictures)
-        except (TypeError, ValueError) as error:
-            row = without_figures(row, str(error))
-            self._store.write(row, pictures)
-        self._begun.ended(planned.key)
-        self._report(planned.cell.slot, row)
+        with self._one_writer:
+            try:
+                self._store.write(row, pictures)
+            except (TypeError, ValueError) as error:
+                row = without_figures(row, str(error))
+                self._store.write(row, pictures)
+            self._begun.ended(planned.key)
+            self._report(planned.cell.slot, row)
         return row
 
     def _left(self, state: _Live, status: CellStatus) -> Left:
@@ -274,6 +296,14 @@ class Runner:
             timed = time_of(state.samples, state.warmed.batch, self._session.name, seed=seed, interval=interval)
         build = build_of(state.warmed, state.outcome.compile_ms)
         return Left(build, state.preparing + state.timing, timed, state.outcome.summary, state.outcome.rungs)
+
+
+def together(planned: Iterable[Planned]) -> list[list[Planned]]:
+    """Split cells into groups that are timed together, in the order of their first cells."""
+    groups: dict[str, list[Planned]] = {}
+    for one in planned:
+        groups.setdefault(one.cell.together, []).append(one)
+    return list(groups.values())
 
 
 def _fitting(group: list[Planned]) -> list[list[Planned]]:

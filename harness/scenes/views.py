@@ -7,10 +7,10 @@ import random
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from harness.contract import View
-from harness.limits import AZIMUTH, DISTANCE, FIELD_OF_VIEW, SEED, Within
+from harness.contract import FirsthitError, View
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, Within
 
-ANGLES, DIRECTIONS = "angles", "directions"  # the sets' names, which rows carry
+ANGLES, DIRECTIONS, PATH = "angles", "directions", "path"  # the sets' names, which rows carry
 GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a Fibonacci lattice
 
 
@@ -46,6 +46,47 @@ class DirectionChoice:
     seed: Annotated[int, SEED] = 1
     fov: Annotated[float, FIELD_OF_VIEW] = 30.0
     distance: Annotated[float, DISTANCE] | None = None
+
+
+@dataclass(frozen=True)
+class PathChoice:
+    """State the path of a camera that moves about its target; each frame is a view.
+
+    Frame i of n, from 0, is at the share i / n of the path. So a full turn shows nothing twice.
+
+    frames: how many
+    azimuth, elevation: of the first frame, as for a View
+    turn: degrees of azimuth from the path's start to its end; 360 is an orbit
+    rise: degrees of elevation from the path's start to its end
+    fov, distance: as for a View, and the same for all frames
+    """
+
+    frames: Annotated[int, Within(2, 10_000)] = 60
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    turn: Annotated[float, AZIMUTH] = 360.0
+    rise: Annotated[float, Within(-180.0, 180.0)] = 0.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
+
+
+def along_path(choice: PathChoice) -> list[View]:
+    """Return the view of each frame of a path, in their order; angles are rounded to 1/10,000 of a degree.
+
+    Raises FirsthitError where the path stands still, or leaves the elevations that there are.
+    """
+    if not (choice.turn or choice.rise):
+        raise FirsthitError("turn and rise are both 0, so that the camera stands still")
+    views = []
+    for i in range(choice.frames):
+        share = i / choice.frames
+        azimuth, elevation = choice.azimuth + share * choice.turn, choice.elevation + share * choice.rise
+        if abs(elevation) > 90.0:
+            raise FirsthitError(f"the camera rises to an elevation of {elevation:g} degrees; it can from -90 to 90")
+        name = f"frame {i + 1:0{len(str(choice.frames))}}"
+        placed = round(azimuth - 360.0 * round(azimuth / 360.0), 4), round(elevation, 4)
+        views.append(View(name, *placed, choice.fov, choice.distance, set=PATH))
+    return views
 
 
 def by_angle(choice: AngleChoice) -> list[View]:

@@ -35,12 +35,17 @@ void finish_tiles(Work work, Frame frame) {
     int list = QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across;
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
-    int blocks = work.tile / 4;
+    int wide_blocks = work.tile / BLOCK_WIDTH;
+    int blocks = work.tile * work.tile / 16;
+    int parts = min(FINISH_PARTS, blocks);  // of a tile, each taken by itself
+    total = parts * total;
     for (int turn = 0;; turn++) {
         int taken = next_tile(work, TAKEN + 8 + work.level, turn);
         if (taken >= total) break;
-        int cell = queued(work, list + taken);
-        int record = singles_at(work.size, work.tile) + SINGLE_RECORD * taken;
+        int slot = taken / parts;
+        int first = (taken % parts) * (blocks / parts);
+        int cell = queued(work, list + slot);
+        int record = singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
         Bicubic roots = kept_bicubic(work, record);
         Bicubic slopes = kept_bicubic(work, record + 16);
         real start = entry_at(work, record + 32);
@@ -50,9 +55,9 @@ void finish_tiles(Work work, Frame frame) {
         real lean_x = entry_at(work, record + 36);
         real lean_y = entry_at(work, record + 37);
         real shrunk = 1.0 - fabs(lean_x) - fabs(lean_y);
-        for (int block = 0; block < blocks * blocks; block++) {
-            int bi = 4 * (block % blocks);
-            int bj = 4 * (block / blocks);
+        for (int block = first; block < first + blocks / parts; block++) {
+            int bi = BLOCK_WIDTH * (block % wide_blocks);
+            int bj = (16 / BLOCK_WIDTH) * (block / wide_blocks);
             int i0 = (cell % across) * work.tile + bi;
             int j0 = (cell / across) * work.tile + bj;
             if (i0 >= work.size || j0 >= work.size) continue;

@@ -14,7 +14,7 @@ from reports.analysis.scene_names import picture_size
 FEWEST = 3  # views that a set has at least
 MOST_LISTED = 8  # of a set with more views only the first is in tables that list scenes one by one
 SCENE = ["surface", "view_set", "device", "precision", "size", "samples_per_pixel", "stage"]
-ANGLES, DIRECTIONS, NAMED = "angles", "directions", "named views"
+ANGLES, DIRECTIONS, PATH, NAMED = "angles", "directions", "path", "named views"
 RATES = {"cast": "rays cast", "inside": "rays in the domain", "covered": "rays that hit"}
 
 
@@ -32,7 +32,7 @@ class ViewSet:
 
     @property
     def kind(self) -> str:
-        """Return the kind of the set: ANGLES, DIRECTIONS, NAMED, or the name that a config gives it."""
+        """Return the kind of the set: ANGLES, DIRECTIONS, PATH, NAMED, or the name that a config gives it."""
         return str(self.first.view_set)
 
     @property

@@ -1,4 +1,4 @@
-"""Draw time and error over the projection angle, and maps of them over the sphere of directions."""
+"""Draw time and error over the projection angle or a path's frames, and maps of them over the sphere of directions."""
 
 from __future__ import annotations
 
@@ -81,6 +81,40 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         f"{of.place}.",
         f"Of the {rays_checked(of.rows)} rays of each angle's check.{wording.zeros(of.rows['error_max'])}",
     )
+
+
+def over_frames(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
+    """Draw each frame's time along a camera's path, a line for each variant, named at its end.
+
+    A red cross marks a frame with wrong rays.
+    """
+    variants = dict(of.variants())
+    numbers = {view: i + 1 for i, view in enumerate(of.views)}
+    height = max(2.2, 0.1 + len(variants) * line_labels.STEP / 72) + 0.6
+    names = line_labels.width([str(rows["label"].iloc[0]) for rows in variants.values()])
+    ends: list[Any] = []
+    with matplotlib.rc_context(RC | SIZES):
+        drawing = Drawing(figsize=(NARROW, height))
+        times = drawing.subplots()
+        drawing.subplots_adjust(0.5 / NARROW, 0.4 / height, 1 - names / NARROW, 1 - 0.2 / height)
+        for variant, rows in variants.items():
+            mark, label, x = marks[variant], rows["label"].iloc[0], rows["view"].map(numbers)
+            look: dict[str, Any] = {"color": mark.color, "ls": mark.line, "lw": 1.2}
+            look["gid"] = series(str(rows["method"].iloc[0]), variant)
+            times.plot(x, rows["median_ms"], **look)
+            wrong = (rows["wrong_rays"].fillna(0) > 0).to_numpy(bool)
+            cross: dict[str, Any] = {"ls": "none", "marker": "x", "ms": 5, "mew": 1.2, "zorder": 4}
+            times.plot(x[wrong], rows["median_ms"][wrong], color=style.WRONG[0].color, **cross)
+            ends.append((x.iloc[-1], rows["median_ms"].iloc[-1], label, mark.color))
+        times.set_yscale("log")
+        label_decades(times.yaxis)
+        times.set_title("time of a frame, ms; red cross: some rays are wrong", color=style.INK, loc="left")
+        times.set_xlabel("frame")
+        times.set_xlim(1, len(numbers))
+        line_labels.write(times, ends)
+        drawn = svg(drawing)
+    told = f"Time of each frame of {wording.listed([end[2] for end in ends])} along the camera's path."
+    return Figure(name, drawn, told, f"{of.place}.", f"Of the {rays_checked(of.rows)} rays of each frame's check.")
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,9 +41,9 @@ def _kept(sets: list[ViewSet]) -> list[ViewSet]:
 def sections(material: Material) -> list[Section]:
     """Make a section of lines over angles and one of maps over directions, with tables as details.
 
-    [] where the run has no set of views.
+    [] where the run has no set of views, or only a camera's path, which reports.parts.camera_paths shows.
     """
-    every = viewstats.view_sets(material.frame)
+    every = [of for of in viewstats.view_sets(material.frame) if of.kind != viewstats.PATH]
     if not every:
         return []
     sets = _kept(every)

@@ -1,15 +1,25 @@
-"""Measure what two ways of the oracle save: `python -m tests.benchmarks.oracle_speed`.
+"""Measure what two ways of the oracle save, and what several processes do.
+
+    python -m tests.benchmarks.oracle_speed
+    python -m tests.benchmarks.oracle_speed --processes 2 --rays 1000000
 
 The oracle decides most rays together in float64, and leaves the others, the slow rays, to single searches in balls of
 more bits. These searches are measured here, on rays of a grid, with a way and without it, in turns. Without pruning, a
 minimum keeps all its arguments on each piece of a ray; without Taylor series, pieces on which f's large terms cancel
 are only cut and enclosed more precisely. Printed are milliseconds of processor time a ray, and how many rays stay
-undecided. Nothing is asserted.
+undecided.
+
+With --processes the rays of a picture of `barth_decic`, of degree 10, are certified by this process alone and by so
+many, in turns; starting these is part of their time. Printed are seconds, and the median of the turns' ratios. Nothing
+is asserted.
 """
 
 from __future__ import annotations
 
+import argparse
 import contextlib
+import math
+import statistics
 import time
 from collections.abc import Iterator
 from unittest.mock import patch
@@ -17,10 +27,12 @@ from unittest.mock import patch
 import numpy as np
 
 import surfaces
-from harness.contract import Surface, TruthStatus
-from harness.oracle import transcendental
+from harness.contract import Surface, TruthStatus, View
+from harness.oracle import first_hits, transcendental
 from harness.oracle.reading import graph_of
 from harness.oracle.transcendental import SmoothSolver
+from harness.scenes.camera import camera_for, rays_of
+from harness.spreading import pool
 
 TURNS = 2
 SPHERES = 200
@@ -64,8 +76,35 @@ def measure(surface: Surface, listed: np.ndarray) -> tuple[np.ndarray, int]:
     return np.array(seconds[1:]), undecided  # without the first, whose constants are made
 
 
+def compare_processes(jobs: int, count: int, turns: int) -> None:
+    """Certify `count` rays by one process and by `jobs`, in turns, and print how much faster these are."""
+    surface = surfaces.get("barth_decic")
+    listed = rays_of(camera_for(View("front"), surface), math.isqrt(count))
+    first_hits(surface, listed[:100])  # the surface's solver is built once in each process
+    ratios = []
+    for _ in range(turns):
+        taken = []
+        for number in (1, jobs):
+            began = time.perf_counter()
+            with pool.over(number):
+                first_hits(surface, listed)
+            taken.append(time.perf_counter() - began)
+        ratios.append(taken[0] / taken[1])
+        told = f"{len(listed):,} rays of {surface.name}: 1 process {taken[0]:.1f} s, {jobs} {taken[1]:.1f} s"
+        print(f"{told}, {ratios[-1]:.2f} times as fast", flush=True)
+    print(f"median of {turns}: {statistics.median(ratios):.2f} times as fast")
+
+
 def main() -> None:
-    """Measure both cases, and print a line for each."""
+    """Measure what the command line asks for, and print a line for each case."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--processes", type=int, default=0)
+    parser.add_argument("--rays", type=int, default=1_000_000)
+    parser.add_argument("--turns", type=int, default=1)
+    options = parser.parse_args()
+    if options.processes:
+        compare_processes(options.processes, options.rays, options.turns)
+        return
     cancels = surfaces.from_formula("cos(x)^2 + sin(x)^2 - 1 + 1e-9*y", "sphere:1.5")
     cases = (
         ("a minimum of 200 spheres, pruned", spheres(), without_pruning),

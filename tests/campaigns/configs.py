@@ -177,6 +177,8 @@ def _smaller(table: dict[str, Any], dice: random.Random) -> dict[str, Any]:
             made[name] = dice.sample(value, min(len(value), dice.choice((1, 1, 2))))
     if "directions" in made:
         made["directions"]["count"] = 2
+    if "path" in made:
+        made["path"]["frames"] = 2
     for scene in made.get("scene", {}).values():
         if "counts" in scene:
             scene["counts"] = [2]

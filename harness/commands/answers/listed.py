@@ -106,6 +106,7 @@ class MethodFacts:
     source: the paper or book that publishes it
     folder: where its method.py and kernel.glsl are
     casts: what its kernel casts
+    rest: of a method that casts tiles, the method whose kernel casts the rays that no tile decides; else an empty text
     answers: false for a method that finds nothing and measures what the harness itself costs
     precisions: of the numbers that it can compute with
     knobs: its parameters
@@ -120,6 +121,7 @@ class MethodFacts:
     source: str
     folder: str
     casts: Casts
+    rest: str
     answers: bool
     precisions: Sequence[Precision]
     knobs: Sequence[KnobFacts]

@@ -18,9 +18,9 @@ from harness.accuracy.judge import Verdicts
 from harness.accuracy.pixels import Pixels, along_rays, pixels_of, set_apart
 from harness.contract import Hits, Program, Surface
 from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Checked, Frame
 from harness.devices.quadtree import Layout, layout_of
+from harness.devices.steps import Executor
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
@@ -80,7 +80,7 @@ class BeamCasting(RacedCasting):
         assert self.timed
         return self._frame(self.timed)
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
         pixels, frame = pixels_of(self.camera, size, self.samples), self._frame(self.check_program(free_loops))
         checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(frame, pixels.index))

@@ -13,8 +13,8 @@ from harness.accuracy.answers import validated
 from harness.accuracy.judge import undecided_hits
 from harness.accuracy.rungs import judge_group
 from harness.contract import FirsthitError, Program, Surface
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
+from harness.devices.steps import Executor
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, Outcome
@@ -34,7 +34,7 @@ class FamilyCasting(Casting):
     def frame(self) -> Frame | None:
         return None
 
-    def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
+    def check(self, executor: Executor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         cell, compile_ms, rungs = self.cell, 0.0, list[RungVerdict]()
         assert cell.family
         kind, of_family = self.asked.method_kind, groups.groups(cell.family)

@@ -31,9 +31,9 @@ from harness.contract import (
     Section,
     Surface,
 )
-from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Frame
+from harness.devices.steps import Executor
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.methods import MethodKind
@@ -95,7 +95,7 @@ class Asked:
         cell, plugin = self.cell, self.plugin
         stated = cell.variant, surface, cell.precision, language or self.language
         own = self.info if language in (None, self.language) else None
-        lanes = lanes_on(stated[-1], own.resident if own else None)
+        lanes = lanes_on(stated[-1], own)
 
         def make() -> Program:
             made = method_program(plugin.method, plugin.folder, *stated, entry, narrowed, 0.0, cell.origin, lanes)
@@ -219,7 +219,13 @@ class Casting(ABC):
     @property
     def programs(self) -> Programs:
         """Return the cell's programs, with all that belongs to them."""
-        return Programs(self.checks, self.timed, self.others, dict(self.cell.variant.parameters))
+        parameters = dict(self.cell.variant.parameters)
+        return Programs(self.checks, self.timed, self.others, parameters, tables=self.tables)
+
+    @property
+    def tables(self) -> Mapping[str, NDArray[np.float64]]:
+        """Return what the host computes of the surface and hands to the programs in buffers, by name."""
+        return {}
 
     @abstractmethod
     def with_programs(self, programs: Programs) -> Casting:
@@ -243,7 +249,7 @@ class Casting(ABC):
         """Build the frame that is timed; None if nothing is timed."""
 
     @abstractmethod
-    def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
+    def check(self, executor: Executor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         """Cast, and hold the answers against the oracle, whose answers `folder` keeps.
 
         With `framed` a frame is to follow, so that a cell which is too wrong to be timed is given a reason. Raises
@@ -270,20 +276,20 @@ class ViewCasting(Casting):
         return with_free_loops(self.checks[0]) if free_loops else self.checks[0]
 
     @abstractmethod
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> check.Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> check.Cast:
         """Cast a grid of size × size rays of the view, rays_of(self.camera, size), and return validated answers.
 
         With `free_loops` the programs leave their loops to the compiler, as timed ones do.
         """
 
-    def second_build(self, executor: LocalExecutor, cast: check.Cast) -> SecondBuild | None:
+    def second_build(self, executor: Executor, cast: check.Cast) -> SecondBuild | None:
         """Return how the same kernel is compiled in another way; None if it cannot be.
 
         It tells whether a compiler is at fault for answers that f contradicts.
         """
         return None
 
-    def samples_shade(self, executor: LocalExecutor, size: int) -> NDArray[np.float32] | None:
+    def samples_shade(self, executor: Executor, size: int) -> NDArray[np.float32] | None:
         """Shade the samples of size × size pixels, float32[k, k]; None if a pixel has one sample."""
         side = size * round(self.cell.samples_per_pixel**0.5)
         if side == size:
@@ -295,7 +301,7 @@ class ViewCasting(Casting):
         """Count the rays that this process holds while it checks: those that are judged, and all that are shaded."""
         return choice.size**2 * (1 + self.cell.samples_per_pixel * (self.cell.samples_per_pixel > 1))
 
-    def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
+    def check(self, executor: Executor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         cell = self.cell
         check.need_memory(self.rays_held(choice))
         cast = self.cast(executor, choice.size)

@@ -10,9 +10,9 @@ from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild
 from harness.accuracy.pixels import pixels_of
 from harness.contract import FirsthitError, Program
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
 from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
+from harness.devices.steps import Executor
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.rays import listed_again
@@ -45,7 +45,7 @@ class NarrowedCasting(ViewCasting):
     def frame(self) -> Frame | None:
         return self._frame()
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
         pixels = pixels_of(self.camera, size, self.samples)
         check = NarrowedCheck(self._frame(), self.check_program(free_loops), rays, pixels.index)
@@ -54,7 +54,7 @@ class NarrowedCasting(ViewCasting):
         facts = {"prepass_evaluations_mean": checked.answer.prepass_evaluations}
         return Cast(surface, rays, hits, checked.compile_ms, facts, {})
 
-    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+    def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
         return listed_again(self.asked, executor, cast, self.former)
 
     def with_programs(self, programs: Programs) -> Casting:

@@ -5,8 +5,12 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import zip_longest
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from harness.contract import Program, digest
 from harness.devices.raster import Batch
@@ -27,6 +31,7 @@ class Programs:
     parameters: the knobs' values, since some of them say how the host launches a program
     batches: in stage raster the draw calls with the programs that report what they answer, else nothing
     second: the same kernel as an OpenCL program of listed rays, for a second build of it; None if there is none
+    tables: what the host computes of the surface and hands to the programs in buffers, by name
     """
 
     checks: tuple[Program, ...]
@@ -35,12 +40,22 @@ class Programs:
     parameters: Mapping[str, float | int]
     batches: tuple[Batch, ...] = ()
     second: Program | None = None
+    tables: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
 
     @property
     def hash(self) -> str:
         """Return a hash of all that the answers of a check depend on, so that equal ones need not run twice."""
         programs = [[program.hash for program in part] for part in (self.checks, self.others)]
-        return digest(programs, dict(self.parameters), [_hash(batch) for batch in self.batches])
+        handed = {name: _bytes_hash(table) for name, table in self.tables.items()}
+        return digest(programs, dict(self.parameters), [_hash(batch) for batch in self.batches], handed)
+
+    @property
+    def frame_hash(self) -> str | None:
+        """Return a hash of all that the time of a frame depends on; None if nothing is timed."""
+        if self.timed is None:
+            return None
+        handed = {name: _bytes_hash(table) for name, table in self.tables.items()}
+        return digest([program.hash for program in (self.timed, *self.others)], handed)
 
     def launched_as(self, other: Programs) -> bool:
         """Tell whether the host can launch these in the place of `other`.
@@ -63,5 +78,9 @@ def _launch(program: Program) -> tuple[str, str, str, list[str]]:
 def _hash(batch: Batch) -> list[object]:
     """Return what decides a draw call's picture, JSON-able."""
     arrays = (batch.instances, batch.triangles, batch.vertices)
-    hashes = [None if array is None else hashlib.sha256(array.tobytes()).hexdigest() for array in arrays]
+    hashes = [None if array is None else _bytes_hash(array) for array in arrays]
     return [batch.program.hash, *hashes, batch.closed]
+
+
+def _bytes_hash(array: NDArray[Any]) -> str:
+    return hashlib.sha256(array.tobytes()).hexdigest()

@@ -19,9 +19,9 @@ from harness.accuracy.check import Cast, Certified
 from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.scene_truth import Seen, hits_of, scene_truth
 from harness.contract import FirsthitError, Program, Truth
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
 from harness.devices.raster import Picture, RasterCheck, RasterFrame
+from harness.devices.steps import Executor
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
@@ -106,7 +106,7 @@ class RasterCasting(ViewCasting):
             batches = tuple(dataclasses.replace(batch, program=with_free_loops(batch.program)) for batch in batches)
         return RasterFrame(batches, self.camera, depth_map(self.scene, self.camera), size)
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         cell, surface = self.cell, self.cell.surface
         drawn = RasterCheck(self._frame(size, True, free_loops), fill_program(), twice=not free_loops)
         checked = executor.check(cell.device, drawn)
@@ -118,7 +118,7 @@ class RasterCasting(ViewCasting):
         pictures = {} if alone else {"shade": shade}
         return SceneCast(surface, picture.rays, hits, checked.compile_ms, facts, pictures, self.scene, picture, alone)
 
-    def _fragments(self, executor: LocalExecutor) -> dict[str, int]:
+    def _fragments(self, executor: Executor) -> dict[str, int]:
         """Count the fragments of the frame that is timed; they are leaves of the row's accuracy."""
         whole = RasterCheck(self._frame(self.samples, reports=True), fill_program(), twice=False)
         picture = executor.check(self.cell.device, whole).answer
@@ -132,7 +132,7 @@ class RasterCasting(ViewCasting):
     def rays_held(self, choice: AccuracyChoice) -> int:
         return choice.size**2 + self.samples**2  # the whole frame is drawn once, to count its fragments
 
-    def samples_shade(self, executor: LocalExecutor, size: int) -> NDArray[np.float32] | None:
+    def samples_shade(self, executor: Executor, size: int) -> NDArray[np.float32] | None:
         return None
 
 

@@ -13,8 +13,8 @@ from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild, with_listed_rays
 from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surface, Variant, plural
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
+from harness.devices.steps import Executor
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.drawing import Drawing
 from harness.experiment.kinds.methods import Rastering
@@ -119,20 +119,20 @@ class RayCasting(RacedCasting):
             return ListedFrame(self.timed, rays_of(self.camera, self.samples))
         return CameraFrame(self.timed, self.camera, self.samples)
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
         checked = executor.check(self.cell.device, ListedCheck(self.check_program(free_loops), rays))
         hits = validated(checked.answer, surface.domain, rays, origin=self.cell.origin)
         return Cast(surface, rays, hits, checked.compile_ms, {}, {})
 
-    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+    def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
         return listed_again(self.asked, executor, cast, self.former)
 
     def with_programs(self, programs: Programs) -> RacedCasting:
         return RayCasting(self.asked, programs.checks[0], programs.timed, programs)
 
 
-def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast, former: Programs | None) -> SecondBuild | None:
+def listed_again(asked: Asked, executor: Executor, cast: Cast, former: Programs | None) -> SecondBuild | None:
     """Return how the cell's kernel casts the rays of `cast` if it is built in a second way.
 
     The kernel is that of another revision if there are `former` programs; None if these have no second one.

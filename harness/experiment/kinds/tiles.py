@@ -8,6 +8,7 @@ pixel is cast with the grid's ray, as it was made on the host; its tile is isola
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +18,8 @@ from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild
 from harness.contract import FirsthitError, Hits, Program, Surface
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Frame
+from harness.devices.steps import Executor
 from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, TileHits, TilePictures, plan_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
@@ -31,6 +32,7 @@ TIMED: tuple[Entry, ...] = ("isolate", "finish", "packets", "rest")
 PICTURE = (
     15  # pixels a side of the picture about a hard ray: a tile of the first level, without its last row and column
 )
+BOUNDS = "fourths"  # the name among a casting's tables
 CHECKED: tuple[Entry, ...] = ("isolate", "finish_listed", "packets_listed", "rest_listed")
 
 
@@ -73,20 +75,34 @@ class TileMethods(ShotKind):
         return validated(hits, surface.domain, shot.rays, shot.t_min)
 
 
-def frame_of(stages: tuple[Program, ...], surface: Surface, camera: NDArray[np.float32], size: int) -> TileFrame:
-    """Return the frame of size x size pixels by the programs of `stages`, which are isolate, finish, packets and rest.
+def bounds_for(isolate: Program, surface: Surface) -> NDArray[np.float64]:
+    """Return the bounds of the surface's fourth derivatives that the programs of a frame read; [0] if they read none.
 
-    `camera` is float32[12]. Raises FirsthitError if the programs read bounds of the surface that there are none of, or,
-    as another revision's may, other ones.
+    Raises FirsthitError if the programs read bounds of the surface that there are none of.
     """
     from harness.kernels.fourths import fourth_bounds
 
+    return fourth_bounds(surface) if plan_of(isolate).grid else np.zeros(0)
+
+
+def frame_of(
+    stages: tuple[Program, ...],
+    surface: Surface,
+    camera: NDArray[np.float32],
+    size: int,
+    bounds: NDArray[np.float64] | None = None,
+) -> TileFrame:
+    """Return the frame of size x size pixels by the programs of `stages`, which are isolate, finish, packets and rest.
+
+    `camera` is float32[12]. `bounds` are those that the programs' own revision makes; None for programs of this one.
+    Raises FirsthitError as `bounds_for` does, and if the bounds are not of as many cells as the programs read.
+    """
     isolate, finish, packets, rest = stages
     grid = plan_of(isolate).grid
-    bounds = fourth_bounds(surface) if grid else np.zeros(0)
-    if grid not in (0, len(bounds)):
-        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and here {len(bounds)} are made")
-    return TileFrame((isolate, finish, packets, rest), camera, size, bounds)
+    handed = bounds_for(isolate, surface) if bounds is None else bounds
+    if len(handed) != grid:
+        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and {len(handed)} are handed to them")
+    return TileFrame((isolate, finish, packets, rest), camera, size, handed)
 
 
 def camera_about(ray: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -120,11 +136,15 @@ class TileCasting(RacedCasting):
     """Cast the tiles of a camera's image."""
 
     def __init__(
-        self, asked: Asked, checks: tuple[Program, ...], timed: tuple[Program, ...], former: bool = False
+        self,
+        asked: Asked,
+        checks: tuple[Program, ...],
+        timed: tuple[Program, ...],
+        bounds: NDArray[np.float64] | None = None,
     ) -> None:
-        """Take the programs of CHECKED, and those of TIMED; `former` if they are another revision's."""
+        """Take the programs of CHECKED, those of TIMED and, if these are another revision's, the bounds it made."""
         super().__init__(asked, checks, timed[0])
-        self.further, self.former = timed[1:], former
+        self.further, self.bounds = timed[1:], bounds
 
     @property
     def others(self) -> tuple[Program, ...]:
@@ -132,13 +152,26 @@ class TileCasting(RacedCasting):
 
     def frame(self) -> Frame | None:
         assert self.timed
-        return frame_of((self.timed, *self.further), self.cell.surface, self.camera, self.samples)
+        return self._frame((self.timed, *self.further), self.camera, self.samples)
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def _frame(self, stages: tuple[Program, ...], camera: NDArray[np.float32], size: int) -> TileFrame:
+        return frame_of(stages, self.cell.surface, camera, size, self.bounds)
+
+    @property
+    def tables(self) -> Mapping[str, NDArray[np.float64]]:
+        assert self.timed
+        if self.bounds is not None:
+            return {BOUNDS: self.bounds}
+        try:
+            return {BOUNDS: bounds_for(self.timed, self.cell.surface)}
+        except FirsthitError:  # which fails the cell where it is cast, with this reason
+            return {}
+
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
         programs = tuple(with_free_loops(program) if free_loops else program for program in self.checks)
         camera, ratio = checked_over(self.camera, size, self.samples)
-        frame = frame_of(programs, surface, camera, ratio * size)
+        frame = self._frame(programs, camera, ratio * size)
         checked = executor.check(self.cell.device, TileCheck(frame, rays, ratio, np.arange(len(rays))))
         answer = checked.answer
         hits = validated(answer.hits, surface.domain, rays)
@@ -147,8 +180,8 @@ class TileCasting(RacedCasting):
         pictures = {"stage": answer.stages.reshape(size, size)}
         return Cast(surface, rays, hits, checked.compile_ms, facts, pictures)
 
-    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
-        if self.former:
+    def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
+        if self.bounds is not None:
             return None
         cell, size = self.cell, math.isqrt(len(cast.rays))
 
@@ -164,7 +197,9 @@ class TileCasting(RacedCasting):
     def with_programs(self, programs: Programs) -> RacedCasting:
         if not programs.timed or len(programs.others) != len(self.further):
             raise FirsthitError("that revision's frame of tiles has other stages")
-        return TileCasting(self.asked, programs.checks, (programs.timed, *programs.others), former=True)
+        if BOUNDS not in programs.tables:
+            raise FirsthitError("that revision does not tell its bounds of the surface's fourth derivatives")
+        return TileCasting(self.asked, programs.checks, (programs.timed, *programs.others), programs.tables[BOUNDS])
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,16 @@
 
 // Answers the lane's pixel of the block at (i0, j0): a hit at shift + t where `hit`, else a miss.
 void answer_block(Work work, int i0, int j0, real shift, real t, bool hit, int stage, int evaluations) {
-    int i = i0 + (OWN_LANE & 3);
-    int j = j0 + (OWN_LANE >> 2);
+    int i = i0 + OWN_LANE % BLOCK_WIDTH;
+    int j = j0 + OWN_LANE / BLOCK_WIDTH;
     if (i >= work.size || j >= work.size) return;
     answer_pixel(work, j * work.size + i, shift, t, answer_word(hit ? HIT : MISS, stage, evaluations));
 }
 
 // Puts the lane's pixel on the list of those that the last stage casts, each from a depth on.
 void leave_pixels(Work work, int i0, int j0, bool which, real from) {
-    int i = i0 + (OWN_LANE & 3);
-    int j = j0 + (OWN_LANE >> 2);
+    int i = i0 + OWN_LANE % BLOCK_WIDTH;
+    int j = j0 + OWN_LANE / BLOCK_WIDTH;
     if (!which || i >= work.size || j >= work.size) return;
     int before = tiles_before(work.size, TILE >> LEVELS);
     int slot = next_in(work, LEFT);
@@ -23,7 +23,7 @@ void leave_pixels(Work work, int i0, int j0, bool which, real from) {
 // Returns the ray of the lane's pixel in a block: the listed one where there is one.
 WideRay with_listed(Work work, int i0, int j0, WideRay ray) {
     WideRay result = ray;
-    int place = listed_place(work, i0 + (OWN_LANE & 3), j0 + (OWN_LANE >> 2));
+    int place = listed_place(work, i0 + OWN_LANE % BLOCK_WIDTH, j0 + OWN_LANE / BLOCK_WIDTH);
     if (place >= 0) {
         result.origin.x = ray_at(work, place);
         result.origin.y = ray_at(work, place + 1);

@@ -1,5 +1,8 @@
 // Runs stage 1 on the tiles of one level; at level -1, sets all counts to 0.
 __attribute__((reqd_work_group_size(TILE_GROUP, 1, 1), vec_type_hint(wide)))
+#ifdef LANES_TOGETHER
+LANES_TOGETHER
+#endif
 __kernel void isolate(__global const float *camera, __global real *t, __global int *answer, __global int *queue,
                       __global int *counts, __global real *entries, __global const real *fourths,
                       __global const float *rays, int nx, int ny, int size, int tile, int level, int ratio) {

@@ -1,5 +1,6 @@
 // Sixteen work items, a work group, share a tile: they exchange numbers through local memory. All of them must call an
 // exchange, or none.
+#define LEADS (OWN_LANE == 0)
 #define EACH_LANE
 #define FIRST_TURN true
 #define most(v) most_of(work, v)
@@ -52,4 +53,13 @@ real other_lane(Work work, real v, int bits) {
     real result = lane_numbers[OWN_LANE ^ bits];
     MEET
     return result;
+}
+
+// Takes a place on a list, the same one for all lanes.
+int shared_place(Work work, int counter) {
+    if (LEADS) lane_bits[0] = next_in(work, counter);
+    MEET
+    int place = lane_bits[0];
+    MEET
+    return place;
 }

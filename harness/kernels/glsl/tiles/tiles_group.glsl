@@ -1,12 +1,8 @@
 // What isolation writes for a tile where sixteen work items have one lane each.
-#define LEADS (OWN_LANE == 0)
 
 void list_single(Work work, int cell, real root, real slope, real start, real stop, bool whole, int spent,
                  real lean_x, real lean_y) {
-    if (LEADS) lane_bits[0] = next_in(work, 4 * work.level + 1);
-    MEET
-    int slot = lane_bits[0];
-    MEET
+    int slot = shared_place(work, 4 * work.level + 1);
     int before = tiles_before(work.size, work.tile);
     int across = tiles_across(work.size, work.tile);
     int record = singles_at(work.size, work.tile) + SINGLE_RECORD * slot;

@@ -1,0 +1,144 @@
+"""Take the steps of cells to a worker of a cluster, and to another one where it was lost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from harness.cluster import admission
+from harness.cluster.engine import Engine
+from harness.cluster.places import Cold, Hold, Lost, Place
+from harness.contract import CellStatus, Program
+from harness.devices.executor import CellError
+from harness.devices.interface import Timing
+from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
+
+if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
+    from harness.devices.probes import Probes
+
+LOSSES = 3  # workers that a step may lose, after which it counts as what ends them
+
+
+class ClusterExecutor:
+    """Run steps on a device of a cluster: on the `place` that was taken for it, then on others that are `wanted`.
+
+    `name` is the device's in cells; `place` is None where there is none yet. Steps may take `timeout` seconds, and the
+    process that holds the device may hold `share` of its machine's memory. Where the worker is lost, the step is taken
+    again by another one with that device; where none comes within the engine's patience, this step and further ones
+    raise CellError until one is there.
+
+    While no step is under way, the thread counts as working on this machine; the caller is within admission.beside().
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        name: str,
+        place: Place | None,
+        wanted: Callable[[Place], bool],
+        timeout: float,
+        share: float,
+    ) -> None:
+        self._engine, self._name, self._wanted = engine, name, wanted
+        self._limits = timeout, share
+        self._hold = self._held(place) if place else None
+        self._ready: set[str] = set()
+        self._released: list[str] = []
+        self._gave_up = False
+        self._moves = 0
+        self.where: dict[str, Any] = (
+            {"machine": place.machine} if place else {}
+        )  # what rows say of where steps run; it changes with the place
+
+    @property
+    def moves(self) -> int:
+        return self._moves
+
+    def probe(self, device: str) -> Probes:
+        probes: Probes = self._ask(device, "probe")
+        return probes
+
+    def fingerprint(self, device: str) -> Fingerprint:
+        found: Fingerprint = self._ask(device, "fingerprint")
+        return found
+
+    def build(self, device: str, program: Program) -> float:
+        compile_ms: float = self._ask(device, "build", program)
+        return compile_ms
+
+    def builds(self, device: str) -> list[str]:
+        found: list[str] = self._ask(device, "builds") if self._hold else []
+        return found
+
+    def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
+        checked: Checked[Answer] = self._ask(device, "check", check)
+        return checked
+
+    def warm(self, device: str, key: str, frame: Frame) -> Warmed:
+        warmed: Warmed = self._ask(device, "warm", key, frame)
+        self._ready.add(key)
+        return warmed
+
+    def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
+        for _ in range(LOSSES + 1):
+            if key not in self._ready:
+                self.warm(device, key, frame)
+            try:
+                timing: Timing = self._ask(device, "sample", key, batch)
+                return timing
+            except Cold:  # another worker has taken over, or that of the device was started anew
+                self._ready.discard(key)
+        raise CellError(CellStatus.CRASHED, f"sample: its frame was lost {LOSSES + 1} times in a row")
+
+    def release(self, device: str, key: str) -> None:
+        del device
+        if key in self._ready:  # the next step frees it
+            self._ready.discard(key)
+            self._released.append(key)
+
+    def close(self) -> None:
+        if self._hold:
+            hold, self._hold = self._hold, None
+            with admission.away():
+                hold.close()
+            self._engine.give_back(hold.place)
+
+    def _held(self, place: Place) -> Hold:
+        return Hold(place, *self._limits, lambda: self._engine.client, self._engine.check)
+
+    def _ask(self, device: str, operation: str, *arguments: Any) -> Any:
+        """Take a step to the worker, or to the one that takes over. Raises CellError, and Cold."""
+        lost = ""
+        for _ in range(LOSSES):
+            with admission.away():
+                hold = self._hold or self._taken()
+                released, self._released = self._released, []
+                try:
+                    plain = hold.place.device if device == self._name else device
+                    return hold.step(operation, plain, arguments, released)
+                except Lost as error:
+                    lost = str(error)
+                    self._drop()
+        raise CellError(CellStatus.CRASHED, f"{operation} lost its worker {LOSSES} times; the last time: {lost}")
+
+    def _drop(self) -> None:
+        assert self._hold
+        self._engine.give_back(self._hold.place)
+        self._hold = None
+        self._ready.clear()
+        self._released.clear()
+
+    def _taken(self) -> Hold:
+        """Take another place for the device. Raises CellError where none comes."""
+        seconds = 0.0 if self._gave_up else None
+        place = self._engine.waited(lambda: self._engine.take(self._wanted), seconds)
+        self._gave_up = place is None
+        if place is None:
+            waited = f"none came back within {self._engine.patience:.0f} s"
+            told = f"the worker of {self._name} was lost, and {waited}; `--retry failed` runs the cell again"
+            raise CellError(CellStatus.FAILED, told)
+        self._hold = self._held(place)
+        self._moves += 1
+        self.where["machine"] = place.machine
+        return self._hold

@@ -1,0 +1,56 @@
+"""Run a Dask worker with named resources: `python -m harness.cluster.serving WORKER HANDLE`, from the supervisor only.
+
+Dask's nanny watches the worker's process and starts it again where it ends. When the scheduler has gone, Dask ends
+both; the supervisor then starts this process again, and the worker waits for a scheduler at the same address.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import os
+import sys
+import threading
+from multiprocessing.connection import Connection
+from typing import Any
+
+from harness.cluster.holder import MACHINE
+from harness.hosting import process
+
+PRELOAD = "harness.cluster.serving"  # its dask_setup, in the worker's process
+
+
+def dask_setup(_worker: Any) -> None:
+    """End the worker's process with its nanny's; Dask calls this where the worker starts."""
+    process.die_with_parent()
+
+
+async def serve(address: str, name: str, resources: dict[str, float], machine: str, asked: Connection) -> None:
+    """Serve the scheduler at an address until it, or the worker's nanny, has ended, or the other end of `asked`."""
+    os.environ[MACHINE] = machine
+    from distributed import Nanny
+
+    stated: dict[str, Any] = {"name": name, "resources": resources, "preload": [PRELOAD]}
+    async with Nanny(address, nthreads=1, memory_limit=0, dashboard=False, **stated) as nanny:
+        loop, told = asyncio.get_running_loop(), asyncio.Event()
+        threading.Thread(target=_listen, args=(asked, loop, told), daemon=True).start()
+        ends = [asyncio.create_task(told.wait()), asyncio.create_task(nanny.finished())]
+        await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
+
+
+def _listen(asked: Connection, loop: asyncio.AbstractEventLoop, told: asyncio.Event) -> None:
+    """Tell when the other end of a connection is closed."""
+    with contextlib.suppress(OSError, EOFError):
+        asked.recv_bytes()
+    loop.call_soon_threadsafe(told.set)
+
+
+def main(stated: str, handle: str) -> None:
+    """Run the worker that `stated` says as JSON, with the names of serve's parameters, until `handle` is closed."""
+    process.die_with_parent()
+    asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
