@@ -262,7 +262,7 @@ class GradientPrinter(IntervalPrinter):
     def _slope(
         self, index: int, op: Op, common: Slope, slopes: list[Slope | None], factors: Mapping[int, str | None]
     ) -> Slope:
-        """Return the derivative of an operation by one axis; `slopes` are those of its inputs, None where they are 0."""
+        """Return an operation's derivative by one axis; `slopes` are those of its inputs, None where they are 0."""
         moving = [slope for slope in slopes if slope is not None]
         zero = self.ends(0)
         texts = [slope.text if slope else zero for slope in slopes]
@@ -335,7 +335,7 @@ def _raised(size: float, power: float) -> float:
 
 
 def _squared(tape: Tape, index: int) -> list[int] | None:
-    """Return the operations whose squares an operation is the sum of, beside constants that are not negative, else None."""
+    """Return the operations whose squares add up to an operation, beside constants that are not negative, else None."""
     op = tape.ops[index]
     if op.name == "const" and op.args[0] >= 0:
         return []
