@@ -19,10 +19,9 @@ from fractions import Fraction
 from harness.contract import Language, Precision
 from harness.kernels.printing import IntervalPrinter, function_text, nearest, number, operations_used
 from harness.kernels.ranges import PARAMETERS, SIDED, WITHIN_REACH, guarded_inputs, reach_test
-from harness.kernels.reach import LARGEST
+from harness.kernels.reach import LARGEST, sizes_within
 from surfaces.lowering import enclosures
-from surfaces.numbers import Balls
-from surfaces.tape import LEAVES, Op, Tape, walk
+from surfaces.tape import LEAVES, Op, Tape
 
 AXES = ("x", "y", "z")
 _HEAD = f"GradientRange surface_gradient_range({PARAMETERS})"
@@ -357,7 +356,7 @@ def gradient_function(
     variables = {axis: axis for axis in AXES} | {
         name: f"make_interval({value}, {value})" for name, value in parameters.items()
     }
-    sizes = None if reach is None else _sizes(tape, reach)
+    sizes = None if reach is None else sizes_within(tape, reach)
     printer = GradientPrinter(variables, precision, language, sizes, sizes is not None)
     lines, value, slopes = printer.gradient(tape)
     if sizes is not None and not printer.largest < LARGEST[precision]:
@@ -390,12 +389,3 @@ def gradient_function(
         for axis in AXES
     ]
     return function_text(_HEAD, lines, "return result;"), count
-
-
-def _sizes(tape: Tape, reach: float) -> list[float]:
-    """Return a bound of the magnitude of each operation's value over boxes within reach."""
-    import flint
-
-    box = dict.fromkeys(AXES, flint.arb(0, reach))
-    values = walk(Tape(tape.ops, tuple(range(len(tape.ops)))), Balls(), box)
-    return [float(abs(value).upper()) * 1.01 for value in values]
