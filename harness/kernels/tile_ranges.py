@@ -1,7 +1,7 @@
 """Make the programs of a method that casts tiles and isolates roots by ranges of f and of its derivatives.
 
 Such a method needs surface_gradient_range. A work item has a tile to itself, or a pixel, on every device: intervals
-over a tile's pyramid are single numbers, and no lanes share them. Tiles are cut until they are 2 by 2 pixels.
+over a tile's pyramid are single numbers, and no lanes share them. Tiles are cut until they are 4 by 4 pixels.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from harness.kernels.sections import (
 
 NEED = "surface_gradient_range"  # what a method needs that isolates by ranges
 TILE = 16  # pixels along a side of the first level's tiles
-LEVELS = 4  # of tiles, each of half the side of the one before
+LEVELS = 3  # of tiles, each of half the side of the one before
 RECORDS = {"OPEN_RECORD": 3, "SINGLE_RECORD": 9, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
 
 

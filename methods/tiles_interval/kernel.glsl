@@ -219,12 +219,11 @@ Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, 
         } else if (falls && !crosses && grown < GROWTHS && !most) {
             grown += 1;
             width = min((b - a) + 1.0625 * (max(far_most, real(0)) + 2.0 * aside) / flattest, 4.0 * width);
-        } else if ((grown > 0 && !alone) || width <= least || most) {
+        } else if (grown > 0 || width <= least || most) {
             search.verdict = OPEN;
             search.stop = b;
         } else {
-            width = (grown > 0 ? 0.125 : 0.5) * width;
-            grown = 0;
+            width = 0.5 * width;
         }
     }
     return search;

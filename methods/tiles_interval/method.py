@@ -21,7 +21,7 @@ those of both sides:
 
 A piece that is not decided is halved. Where f falls along all rays and only the far end is not behind all roots, the
 piece is made longer, by as much as the flattest slope needs. A tile whose shortest piece is not decided is open. It
-is cut into quarters, down to 2 by 2 pixels; pixels of open tiles are searched as tiles of their own. The square of a
+is cut into quarters, down to 4 by 4 pixels; pixels of open tiles are searched as tiles of their own. The square of a
 tile reaches 1/32 pixel beyond the middles of its pixels, and all roundings of the geometry are bounded and added, so
 verdicts hold for listed rays as for computed ones (docs/tiles.md).
 
