@@ -69,8 +69,8 @@ def test_each_pixel_has_the_first_root_on_its_ray(name):
         answer = cast(name, view)
         assert differing(answer.hits, alone(DEVICES[0], view)) < 1e-3
         assert sum(answer.shares.values()) == pytest.approx(1.0)
-        assert answer.shares["rest"] < 0.05 and answer.shares["packets"] < 0.6
-    assert answer.shares["single_4"] > 0.02  # of the view from inside
+        assert answer.shares["rest"] < 0.05
+        assert sum(share for stage, share in answer.shares.items() if "_" in stage) > 0.05  # tiles decide
 
 
 BREAKS = {
