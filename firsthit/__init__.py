@@ -218,6 +218,7 @@ def run(
     wait: bool = False,
     yes: bool = False,
     jobs: int | None = None,
+    shard: str | None = None,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Run:
@@ -226,8 +227,9 @@ def run(
     `config` is the path of a TOML file, or the name of a config that firsthit ships, as in "quick". `devices` take the
     place of those that it names. Finished cells are reused; `force` runs them again, `retry_failed` runs those again
     that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. First hits are
-    certified by `jobs` processes, one for each core if that is None; never while a time is taken. `tell` is called with
-    a line of text for whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
+    certified by `jobs` processes, one for each core if that is None; never while a time is taken. With `shard`, as in
+    "3/16", that part of the config is run, into a folder of its own. `tell` is called with a line of text for
+    whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
     it has ended. A run that was stopped, as by interrupting a notebook, goes on from there when it is called again.
 
     A cell that fails is a row that says why. Raises FirsthitError for an argument that makes no sense, with file and
@@ -241,9 +243,9 @@ def run(
     checked_path("config", config)
     folder = checked_path("runs", runs)
     named, watcher = checked_names("devices", devices), running.teller(tell)
-    given = running.read(config, _folder(plugins), named, watcher, yes)
+    given = running.read(config, _folder(plugins), named, watcher, yes, shard=shard)
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
-    words += ["--yes"] if yes else []
+    words += [*(["--shard", str(shard)] if shard is not None else []), *(["--yes"] if yes else [])]
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
     again: dict[str, Any] = {"force": force, "retry_failed": retry_failed, "wait": wait}
     with _processes(jobs):
@@ -253,17 +255,19 @@ def run(
 def load(folder: AnyPath) -> pd.DataFrame:
     """Return a run's cells as a table: a row each, with the columns of results.csv, as `median_ms` and `error_max`.
 
-    `folder` is a Run's, or any that `firsthit run` made. Families of hard rays are not among the rows. Raises
-    FirsthitError where it is no such folder or no cell is finished and, with exit_code 3, where pandas is missing.
+    `folder` is a Run's, any that `firsthit run` made, or a file of `firsthit archive`. Families of hard rays are not
+    among the rows. Raises FirsthitError where it is no such folder or file, or no cell is finished and, with exit_code
+    3, where pandas is missing.
     """
     try:
         from reports.analysis.derive import derive
-        from reports.reading.load import load as read
+        from reports.reading.load import opened
     except ModuleNotFoundError as error:
         message = f"a table of results needs the package {error.name}: pip install 'firsthit[report]'"
         raise FirsthitError(message, exit_code=3) from None
-    found = read(checked_path("folder", folder))
-    return derive(found.frame, found.plan.peaks).drop(columns=["label", "method_label"])  # results.csv has no words
+    with opened(checked_path("folder", folder)) as found:
+        frame = derive(found.frame, found.plan.peaks)
+    return frame.drop(columns=["label", "method_label"])  # results.csv has no words
 
 
 def recommend(

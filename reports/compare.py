@@ -34,7 +34,8 @@ def build(a: Path, b: Path, output: Path | None = None) -> Path:
     file, lies in a run or cannot be written to.
     """
     folder = checked(place(a, b) if output is None else output)
-    content = report(load.load(a), load.load(b))
+    with load.opened(a) as first, load.opened(b) as second:
+        content = report(first, second)
     with replacing_together(folder, "the report") as made:
         document.write_pdf(content, made / "pdf", made / "report.pdf", "")
         html.write_html(content, {}, made / "report.html")

@@ -49,7 +49,22 @@ def build(
     `output` is a file, lies in a run or cannot be written to.
     """
     folder = checked(place(run) if output is None else output)
-    loaded = load.load(run)
+    with load.opened(run) as loaded:
+        _build(loaded, folder, baseline, focus, appendix, figures, tables, tell)
+    return folder / "report.pdf"
+
+
+def _build(
+    loaded: Run,
+    folder: Path,
+    baseline: str | None,
+    focus: str | None,
+    appendix: bool,
+    figures: Sequence[str],
+    tables: Sequence[str],
+    tell: Callable[[str], None],
+) -> None:
+    """Write the files of the report on a run into a folder."""
     tell(f"deriving figures of {wording.plural(len(loaded.frame), 'row')}")
     frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
@@ -68,7 +83,6 @@ def build(
             _for_papers(material, figures, tables, folder, made)
     if rungs.empty:
         (folder / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
-    return folder / "report.pdf"
 
 
 def _for_papers(material: Material, figures: Sequence[str], tables: Sequence[str], folder: Path, made: Path) -> None:
@@ -111,7 +125,12 @@ def _subtitle(run: Run) -> str:
     """Write the version, the run's name and date, and the commit."""
     environment = run.plan.environment
     dirty = " with uncommitted changes" if environment.get("dirty") else ""
-    told = [f"firsthit {environment.get('firsthit', '')}".strip(), f"run “{run.plan.name}”", run.plan.created[:10]]
+    merged = f", merged from {wording.plural(len(run.plan.merged), 'run')}" if run.plan.merged else ""
+    told = [
+        f"firsthit {environment.get('firsthit', '')}".strip(),
+        f"run “{run.plan.name}”{run.plan.part}{merged}",
+        run.plan.created[:10],
+    ]
     if environment.get("commit"):
         told.append(f"commit {environment['commit']}{dirty}")
     return " · ".join(told)

@@ -29,7 +29,7 @@ repetitions = 16
 
 def copies(run: Path, folder: Path, count: int) -> list[Row]:
     """Write `count` rows into `folder`, copies of a run's rows in turn, with their arrays and truth; return them."""
-    rows = [row for row in Store(run).rows() if row["status"] == "ok"]
+    rows = [row for row in Store(run).rows() if row["time"] and row["casts"] == "rays" and row["stage"] == "compute"]
     (folder / "cells").mkdir(parents=True)
     (folder / "arrays").mkdir()
     shutil.copytree(Store(run).truth, Store(folder).truth)

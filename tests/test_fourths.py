@@ -200,3 +200,17 @@ def test_what_has_no_bound_is_refused():
     huge = surfaces.from_formula("1e200*x^8 + y - 1", "sphere:1e20")
     with pytest.raises(FirsthitError, match="no finite bound"):
         fourths.fourth_bounds(huge)
+
+
+def test_the_tables_of_a_pyramid_follow_each_other_from_the_finest_to_the_coarsest():
+    surface = surfaces.get("barth_sextic")
+    rows, first, finer = fourths.fourth_pyramid(surface), 0, None
+    for table in range(fourths.TABLES):
+        side = fourths.GRID >> table
+        bounds = rows[first : first + side**3].reshape(side, side, side, 16)
+        first += side**3
+        if finer is not None:  # a coarser cell with its surroundings holds its finer cells with theirs
+            children = finer.reshape(side, 2, side, 2, side, 2, 16).max(axis=(1, 3, 5))
+            assert (bounds >= children).all() and (bounds < 100.0 * children.max(axis=(0, 1, 2))).all()
+        finer = bounds
+    assert first == len(rows)

@@ -138,7 +138,7 @@ info = next(i for i in find_devices(sys.argv[2].partition(":")[0]) if i.name == 
 folder = Path(sys.argv[1]).parent / "runs"
 info, _ = probed(Here(), info, folder)
 cells = plan.plan(experiment, catalog, [info])
-about = {"commit": None, "dirty": False}
+about = {"commit": None, "dirty": False, "machine": None}
 rows = Runner(experiment.config, catalog, Store(folder), Here(), about, lambda *_: None).run(cells)
 files = {Path(m.__file__).resolve() for m in sys.modules.values() if getattr(m, "__file__", None)}
 print(json.dumps({"rows": [[r["status"], r["reason"]] for r in rows.values()], "files": sorted(map(str, files))}))

@@ -41,7 +41,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.experiment",),
     ("harness.conformance", "harness.running", "harness.shipping"),
     ("harness.cluster",),
-    ("harness.gate", "harness.recommend", "harness.verifying"),
+    ("harness.gate", "harness.merging", "harness.recommend", "harness.verifying"),
     ("firsthit",),
     ("harness.commands",),
     ("harness.cli",),

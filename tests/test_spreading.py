@@ -171,7 +171,7 @@ from harness import stopping
 from harness.spreading import pool
 from tests import spread_work
 with pool.over(2), stopping.stoppable():
-    made = pool.spreading._TAKER
+    made = pool.spreading.taker()
     made.map(spread_work.fails_or_sleeps, [0.01, 0.01])
     print(*made.pids, flush=True)
     made.map(spread_work.fails_or_sleeps, [60.0, 60.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import random
 import shutil
 from collections.abc import Iterator
@@ -16,12 +17,16 @@ from numpy.typing import NDArray
 
 from harness import oracle
 from harness.cli import main
+from harness.commands import verify
 from harness.contract import FirsthitError, Surface, Truth, digest
 from harness.oracle import cache
 from harness.results import sealed
 from harness.results.store import Store
-from harness.verifying import checks
+from harness.spreading import pool
+from harness.verifying import checks, truth
 from harness.verifying.checks import Verified
+from harness.verifying.model import CannotTell
+from tests.many_rows import copies
 
 from .conftest import usable_devices
 
@@ -228,6 +233,69 @@ def test_a_row_of_another_question_is_found(run: Path, tmp_path: Path) -> None:
     (folder / "cells" / f"{key}.json").write_bytes(sealed.sealed(row))
     found = verified(folder)
     assert {one.check for one in found.failing} == {"truth"} and found.missing == 1
+
+
+def test_a_row_without_answers_ray_by_ray_is_held_against_the_truth_alone(run: Path, tmp_path: Path) -> None:
+    """As that of a stranger who gives away no more than the row."""
+    row = next(row for row in Store(run).rows() if row["time"] and row["casts"] == "rays" and row["stage"] == "compute")
+    alone = row | {"arrays": None}
+    assert not _falls(run, tmp_path, alone, alone)
+    one_more = {"truth_hits": row["accuracy"]["truth_hits"] + 1, "truth_misses": row["accuracy"]["truth_misses"] - 1}
+    assert _falls(run, tmp_path, alone, alone | {"accuracy": row["accuracy"] | one_more})
+
+
+def test_a_surface_that_is_not_known_here_is_certified_by_the_row(run: Path) -> None:
+    """The eye's distance, which follows from a length of the surface, is the one that the row tells."""
+    row = next(row for row in Store(run).rows() if row["time"] and row["casts"] == "rays" and row["stage"] == "compute")
+    assert row["identity"]["view"]["distance"] is None
+    known, row = truth.rays_for(row)[1], copy.deepcopy(row)
+    row["identity"]["surface"]["formula"] = row["formula"] = f"0 + ({row['formula']})"
+    row["key"] = digest(row["slot"], row["identity"])
+    surface, rays = truth.rays_for(row)
+    assert surface.source == "a row" and np.array_equal(rays, known)
+    with pytest.raises(CannotTell, match="distance"):
+        truth.rays_for(row | {"camera": None})
+    row["camera"]["distance"] = "far"
+    with pytest.raises((FirsthitError, TypeError)):
+        truth.rays_for(row)
+
+
+def test_processes_find_the_same(run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("STARTING", "SENDING"):
+        monkeypatch.setattr(pool, name, -1e3)
+    monkeypatch.setattr(checks, "CHUNK", 2)
+    folder = tmp_path / "run"
+    made = copies(run, folder, 9)
+    path = folder / "cells" / f"{made[6]['key']}.json"
+    path.write_bytes(path.read_bytes().replace(b'"ok"', b'"OK"'))
+    made[4]["accuracy"]["ulp_error"]["max"] *= 0.5
+    (folder / "cells" / f"{made[4]['key']}.json").write_bytes(sealed.sealed(made[4]))
+    alone = verified(folder)
+    with pool.over(2):
+        found = verified(folder)
+        assert pool.spreading.taker().pids  # type: ignore[union-attr]
+    assert found == alone and {one.file.stem for one in found.failing} == {made[4]["key"], made[6]["key"]}
+    assert found.rows == 9 and found.certifiable == found.sampled == 7
+
+
+def test_the_chance_to_find_a_row_is_told(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of N rows of which n are drawn, none of k bad ones is drawn with the chance C(N - k, n) / C(N, n)."""
+    for of, number in ((10_000, 100), (50, 3), (7, 6)):
+        bad = verify.enough(of, number)
+        none = [math.comb(of - k, number) / math.comb(of, number) for k in (bad - 1, bad)]
+        assert none[0] > 1.0 - verify.SURE >= none[1]
+    assert verify.sampled(Verified(certifiable=10_000, sampled=100, seed=7)) == (
+        "the truth of 100 of 10,000 rows (1.00%) was certified anew (seed 7): this tells of a single row that only "
+        "the truth contradicts with a chance of 1.00%, of 294 such rows with 95%"
+    )
+    capsys.readouterr()
+    seeds = set()
+    for _ in range(2):
+        assert main(["verify", str(run), "--sample", "1", "--json"]) == 0
+        told = json.loads(capsys.readouterr().out)
+        assert told["certified"] == 1 < told["certifiable"]
+        seeds.add(told["seed"])
+    assert len(seeds) == 2, "who makes up a row can foresee which ones are drawn"
 
 
 def test_samples_and_mistakes(run: Path, tmp_path: Path) -> None:

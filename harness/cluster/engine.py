@@ -24,7 +24,7 @@ from harness.devices.interface import INSTALL
 from harness.stopping import Stopped
 
 LOOK_SECONDS = 0.5  # between two looks at the scheduler
-ANSWER_SECONDS = 10.0  # for the scheduler to answer
+ANSWER_SECONDS = 30.0  # for the scheduler to answer
 SILENT_SECONDS = 30.0  # without a sign of life, after which a worker counts as lost
 PATIENCE_SECONDS = 120.0  # for which a lost device or scheduler is waited for
 

@@ -17,7 +17,7 @@ from typing import Any
 from harness.cluster import admission
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices import kept_answers
-from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host import Host, this_host
 from harness.devices.interface import INSTALL, device_named
 from harness.results import sources
@@ -26,6 +26,7 @@ from harness.running.fastest import Tried
 
 MACHINE = "FIRSTHIT_MACHINE"  # the variable by which `firsthit worker --machine` names the machine
 CORES = "cores"  # the resource of workers that take chunks of work which needs no device
+FIND_SECONDS = 300.0  # for a driver to load and a device to be probed, beside whatever else this machine does
 _telling = threading.Lock()
 _told: dict[tuple[str, ...], bytes] = {}
 
@@ -53,18 +54,23 @@ def code() -> dict[str, str]:
 def announce(resources: Mapping[str, float]) -> dict[str, Any]:
     """Say what this worker has, where its resources name devices: `code`, and an Announced that is pickled in `said`.
 
-    The devices are found and probed when this is first asked, with the machine to itself.
+    The devices are found and probed when this is first asked, with the machine to itself; so are those that could not
+    be used, each time.
     """
     names = tuple(sorted(name for name in resources if name.partition(":")[0] in INSTALL))
     with _telling:
-        if names not in _told:
-            _told[names] = pickle.dumps(Announced(machine(), this_host(), tuple(map(_tried, names))))
-    return {"code": code(), "said": _told[names]}
+        said = _told.get(names)
+        if said is None:
+            tried = tuple(map(_tried, names))
+            said = pickle.dumps(Announced(machine(), this_host(), tried))
+            if not any(info.problem for info, _ in tried):
+                _told[names] = said
+    return {"code": code(), "said": said}
 
 
 def _tried(name: str) -> Tried:
     """Find and probe a device; one that cannot be used says so in its problem."""
-    executor = LocalExecutor(START_SECONDS)
+    executor = LocalExecutor(FIND_SECONDS)
     try:
         with admission.alone(name, whole_machine=True):
             info = device_named(name, executor.find(name.partition(":")[0]))

@@ -21,7 +21,7 @@ from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.host import cores
 
-CONNECT_SECONDS = 10.0
+CONNECT_SECONDS = 30.0
 LOOK_SECONDS = 0.5  # between two looks at this machine's workers
 MOST_CORES = 4096
 LOGGING = "DASK_LOGGING__DISTRIBUTED"  # how much Dask writes, which a user may say too
@@ -33,9 +33,9 @@ _PLACE = re.compile(r"(?:(?:tcp|tls|ws|wss)://)?(?:\[[0-9A-Fa-f:.]+\]|[\w.-]+):\
 def opened(text: str, wanted: Collection[str], tell: Tell) -> Iterator[ClusterFleet]:
     """Open a cluster for a block: HOST:PORT of a scheduler, local[:N], or a TOML file for Slurm.
 
-    `wanted` are the words by which configs name devices; `tell` hears of what is started, lost and found again. What
-    was started for the block is ended after it. While it runs, the cluster's cores take the oracle's work. Raises FirsthitError where the text says no cluster, Dask is missing,
-    or nothing answers.
+    `wanted` are the words by which configs name devices; `tell` hears of what is started, lost and found again. While
+    the block runs, the cluster's cores take the oracle's work. What was started for it is ended after it. Raises
+    FirsthitError where the text says no cluster, Dask is missing, or nothing answers.
     """
     need_dask("--cluster")
     with _opened(text, wanted, tell) as fleet, spreading.over(ClusterSpread(fleet.engine, spreading.taker())):

@@ -31,6 +31,11 @@ GROUPS: dict[str, dict[str, str]] = {
         "publish": "make a static site from many runs: who wins where, with pictures and the data; runs nothing"
     },
     "cluster": {"worker": "offer this machine's devices and cores to runs with --cluster"},
+    "folders": {
+        "merge": "join runs of one config, of shards or of several machines, to one run; runs nothing",
+        "archive": "pack a run into one file, which report, merge, verify and publish read",
+        "clean": "remove the rows of a run's folder that its plan does not name",
+    },
     "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",

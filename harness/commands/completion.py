@@ -53,7 +53,7 @@ def complete(build: Callable[[list[str]], argparse.ArgumentParser]) -> None:
 
 def _prepare(parser: argparse.ArgumentParser) -> None:
     """Give each option and argument what completes its values, where these are no choices and no files."""
-    from argcomplete.completers import DirectoriesCompleter
+    from argcomplete.completers import DirectoriesCompleter, FilesCompleter
 
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
@@ -61,6 +61,8 @@ def _prepare(parser: argparse.ArgumentParser) -> None:
                 _prepare(own)
         elif action.choices is None and action.dest in COMPLETERS:
             action.completer = _Named(COMPLETERS[action.dest])  # type: ignore[attr-defined]
+        elif action.dest == "folders":
+            action.completer = FilesCompleter(("zip",))  # type: ignore[attr-defined]
         elif action.metavar == "DIR" or action.dest in FOLDERS:
             action.completer = DirectoriesCompleter()  # type: ignore[attr-defined]
         elif action.choices is None and action.type is not Path:
@@ -174,5 +176,5 @@ COMPLETERS: dict[str, Callable[[Namespace], Iterable[str]]] = {  # by the destin
     "cell": _cells,
     "require": _claims,
 }
-FOLDERS = ("folder", "folders", "other")  # arguments that are folders
+FOLDERS = ("folder",)  # arguments that are folders; "folders" are folders and archives
 FILES = ("surface", "cell")  # names that may be files

@@ -18,7 +18,9 @@ from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
+from harness.experiment.shards import Share
 from harness.experiment.size import cells_of
+from harness.limits import Name
 from harness.plugins import find_methods
 from harness.results.begun import Begun
 from harness.results.history import past_of
@@ -34,6 +36,7 @@ FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; 
 def add_parsers(add: Add) -> None:
     parser = add("plan", "firsthit plan quick")
     _add_config(parser)
+    _add_shard(parser)
     add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_plan)
@@ -49,6 +52,9 @@ def add_parsers(add: Add) -> None:
     )
     parser.add_argument("--cluster", metavar="WHERE", help=help_)
     add_jobs(parser)
+    _add_shard(parser)
+    help_ = "how rows name this machine (default: its short name in its network); merged runs tell devices apart by it"
+    parser.add_argument("--machine", type=_machine, metavar="NAME", help=help_)
     add_wait(parser)
     add_yes(parser)
     parser.set_defaults(run=_run)
@@ -62,14 +68,17 @@ def add_parsers(add: Add) -> None:
     parser = add(
         "report",
         "firsthit report runs/quick -o paper --figures svg,pdf --tables latex",
-        "Write report.pdf, report.html, results.csv and results.parquet about a run, or about what changed from one to "
-        "another. Nothing is written into a run. With --figures and --tables there are also folders for a paper: a "
-        "file for each figure and table, named by what it shows (figures/speed-error-torus.pdf, "
+        "Write report.pdf, report.html, results.csv and results.parquet about a run, about what changed from one to "
+        "another, or about three or more runs of one config, as of several machines, which are joined as `firsthit "
+        "merge` joins them. Nothing is written into a run. With --figures and --tables there are also folders for a "
+        "paper: a file for each figure and table, named by what it shows (figures/speed-error-torus.pdf, "
         "tables/results-torus.tex), with captions.md, and captions.tex to copy floats from. Figures are 84 mm wide, "
         "with text of 8 points; pictures are PNG, whatever the forms. The tables of LaTeX need booktabs and graphicx.",
     )
-    parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
-    parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
+    help_ = "a folder below runs/, or an archive of one; of two runs, what changed from the first to the second"
+    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help=help_)
+    help_ = "report on two runs of one config as on one, as on three or more: devices against each other"
+    parser.add_argument("--together", action="store_true", help=help_)
     parser.add_argument(
         "--baseline",
         metavar="NAME",
@@ -106,15 +115,35 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_shard(parser: argparse.ArgumentParser) -> None:
+    help_ = (
+        "the K-th of N parts of the config, the same on each machine; what is compared stays together. Its results go "
+        "into a folder of their own, NAME.shard-K-of-N, and `firsthit merge` joins them"
+    )
+    parser.add_argument("--shard", metavar="K/N", help=help_)
+
+
+def _machine(text: str) -> str:
+    """Read the name of a machine. Raises ArgumentTypeError for a text that is no name, or holds a blank or an @."""
+    if problem := Name().broken(text):
+        raise argparse.ArgumentTypeError(problem)
+    if "@" in text or len(text.split()) != 1:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} holds a blank or an @, which separate it from other words")
+    return text
+
+
 def _read(options: argparse.Namespace, printer: Printer) -> Read:
-    return read(options.config, options.plugins, getattr(options, "device", None) or (), printer, options.yes)
+    devices, machine = (getattr(options, name, None) for name in ("device", "machine"))
+    named = {"shard": options.shard, "machine": machine}
+    return read(options.config, options.plugins, devices or (), printer, options.yes, **named)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
     printer = Printer()
     loaded = load(_read(options, printer), printer)
-    made = [_planned(part, loaded, options.runs) for part in loaded.parts]
+    shares = zip(loaded.parts, loaded.shares(), strict=True)
+    made = [_planned(part, share, loaded, options.runs) for part, share in shares]
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
     for reason in failures.keys() - set(loaded.catalog.warnings):  # those were told already
@@ -129,17 +158,20 @@ def _plan(options: argparse.Namespace) -> int | Answer:
     return code
 
 
-def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[experiments.PlanFacts, list[str]]:
+def _planned(
+    part: config.Experiment, share: Share | None, loaded: Loaded, runs: Path
+) -> tuple[experiments.PlanFacts, list[str]]:
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out.
 
     The second part has the reasons of the cells that fail before they run.
     """
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    cells = cells_of(part, loaded.catalog, loaded.devices)
-    with console.doing(f"{part.path}: {cells:,} cells; preparing them") as tell_step:
-        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
-    store = Store(runs / part.name)
+    cells, of = cells_of(part, loaded.catalog, loaded.devices), f"shard {loaded.shard} of " if loaded.shard else ""
+    with console.doing(f"{part.path}: {of}{cells:,} cells; preparing them") as tell_step:
+        only = share.groups if share else None
+        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step, only=only)
+    store = Store(loaded.folder(runs, part))
     found = due(planned, store, asked=Begun(store.folder).again)
     for message in store.unreadable.values():
         tell_wrong(f"firsthit: {message}; `firsthit run` makes it again")
@@ -224,21 +256,30 @@ def _why_again(changed: Sequence[Difference]) -> None:
 def _report(options: argparse.Namespace) -> int:
     """Build a report. Raises FirsthitError if a package is missing, or if --baseline is given with two runs."""
     try:
+        from harness.commands import folders
         from reports import compare, report
+        from reports.place import place
 
-        if options.other:
-            for name in ("baseline", "focus", "appendix", "figures", "tables"):
-                if getattr(options, name):
-                    raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-        with console.working() as tell_step:
-            if options.other:
-                tell_step(f"comparing {options.folder} with {options.other}")
-                made = compare.build(options.folder, options.other, options.output)
+        runs, names = options.folders, ("baseline", "focus", "appendix", "figures", "tables")
+        changed = len(runs) == 2 and not options.together
+        if changed and (given := next((name for name in names if getattr(options, name)), None)):
+            raise FirsthitError(
+                f"--{given} goes with one run, or with --together: of two, each cell is held against itself"
+            )
+        about = {name: getattr(options, name) for name in names}
+        with contextlib.ExitStack() as stack:
+            tell_step = stack.enter_context(console.working())
+            if changed:
+                tell_step(f"comparing {runs[0]} with {runs[1]}")
+                made = compare.build(*runs, options.output)
+            elif len(runs) == 1:
+                tell_step(f"reading {runs[0]}")
+                made = report.build(runs[0], options.output, **about, tell=tell_step)
             else:
-                tell_step(f"reading {options.folder}")
-                names = ("baseline", "focus", "appendix", "figures", "tables")
-                about = {name: getattr(options, name) for name in names}
-                made = report.build(options.folder, options.output, **about, tell=tell_step)
+                joined, lines = stack.enter_context(folders.joined(runs, tell_step))
+                made = report.build(joined, options.output or place(*runs, joined=True), **about, tell=tell_step)
+                for line in lines:
+                    tell_wrong(f"firsthit: {line}")
         print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
     except ModuleNotFoundError as error:
         message = (

@@ -8,6 +8,7 @@ from pathlib import Path
 from harness.commands import Add
 from harness.commands.options import tell_wrong
 from harness.contract import FirsthitError
+from harness.results import archive
 
 
 def add_parsers(add: Add) -> None:
@@ -19,7 +20,7 @@ def add_parsers(add: Add) -> None:
         "server. A run that cannot be read is named, there and on standard error, and the others are shown. Runs "
         "nothing.",
     )
-    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/")
+    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/, or an archive")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="DIR", required=True, help="a new folder, or an older site"
     )
@@ -37,7 +38,8 @@ def _publish(options: argparse.Namespace) -> int:
             f"a site needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"
         )
         raise FirsthitError(message, exit_code=3) from None
-    index, problems = build.build(options.folders, options.output, options.title or build.TITLE, options.contact)
+    with archive.all_opened(options.folders) as folders:
+        index, problems = build.build(folders, options.output, options.title or build.TITLE, options.contact)
     for problem in problems:
         tell_wrong(f"firsthit: {problem}")
     print(index)

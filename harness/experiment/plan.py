@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import random
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -47,6 +48,7 @@ class Planned:
     skip: why it cannot run
     is_timed: False: the cell is checked only
     lacks: it cannot run for something that its device lacks, and not for its method
+    at: the place of the cell in the whole plan, from 0
     failure: why it fails before it runs: a method of it cannot be loaded, or went wrong when it was asked, or its
         device does not tell how it computes; None: not
     """
@@ -61,6 +63,7 @@ class Planned:
     is_timed: bool = True
     lacks: bool = False
     failure: str | None = None
+    at: int = 0
 
     @property
     def checks(self) -> tuple[Program, ...]:
@@ -168,20 +171,33 @@ def plan(
     found: list[DeviceInfo],
     timed: bool = True,
     tell: Callable[[str], None] = lambda _: None,
+    only: Collection[str] | None = None,
     hosts: Mapping[str, Host] | None = None,
 ) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    `hosts` are the machines of devices that are not this one's, by the devices' names. `tell` hears of each cell before
-    its programs are made, since a surface's tables may take seconds. Raises FirsthitError where none of the devices
-    that the config names is among those `found`.
+    With `only`, names of `together`, the other groups' cells are left out. `hosts` are the machines of devices that are
+    not this one's, by the devices' names. `tell` hears of each cell before its programs are made, since a surface's
+    tables may take seconds. Raises FirsthitError where none of the devices that the config names is among those
+    `found`.
     """
-    cells, planned, shared = grid(experiment, catalog, found), [], Shared()
+    planned, shared = [], Shared()
     total = cells_of(experiment, catalog, found)
-    for number, (cell, info) in enumerate(cells, 1):
-        tell(f"preparing [{number}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
-        planned.append(_planned(cell, info, catalog, experiment, timed, shared, (hosts or {}).get(cell.device)))
+    for at, (cell, info) in enumerate(grid(experiment, catalog, found)):
+        if only is None or cell.together in only:
+            tell(f"preparing [{at + 1}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
+            one = _planned(cell, info, catalog, experiment, timed, shared, (hosts or {}).get(cell.device))
+            planned.append(dataclasses.replace(one, at=at))
     return planned
+
+
+def together(experiment: Experiment, catalog: Catalog) -> Mapping[str, int]:
+    """Count the cells on one device of each group that is timed together (Cell.together), in the plan's order.
+
+    No device is looked for, so that the answer is the same on each machine.
+    """
+    casters = list(_casters(experiment, catalog, lambda _: ("",)))
+    return Counter(cell.together for cell in _cells(experiment, catalog, casters))
 
 
 def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> Iterator[tuple[Cell, DeviceInfo | None]]:
@@ -189,14 +205,18 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> I
 
     Raises FirsthitError as `plan` does.
     """
-    devices = devices_of(experiment, found, kinds.only_rasters(experiment))
-    casters = list(_casters(experiment, catalog, found))
-    cells = itertools.chain(
+    rasterises = kinds.only_rasters(experiment)
+    devices = devices_of(experiment, found, rasterises)
+    casters = _casters(experiment, catalog, lambda v: choose_devices([*experiment.devices_of(v)], found, rasterises))
+    return ((cell, devices[cell.device]) for cell in _cells(experiment, catalog, list(casters)))
+
+
+def _cells(experiment: Experiment, catalog: Catalog, casters: list[_Caster]) -> Iterator[Cell]:
+    return itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),
         _scenes(experiment, catalog, casters),
         _families(experiment, casters),
     )
-    return ((cell, devices[cell.device]) for cell in cells)
 
 
 @dataclass(frozen=True)
@@ -210,12 +230,13 @@ class _Caster:
     precision: Precision
 
 
-def _casters(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> Iterator[_Caster]:
-    rasterises = kinds.only_rasters(experiment)
+def _casters(
+    experiment: Experiment, catalog: Catalog, devices: Callable[[Variant], Iterable[str]]
+) -> Iterator[_Caster]:
+    """Yield every way to cast rays; `devices` names those of a variant."""
     for variant, before in itertools.product(experiment.variants, experiment.prepasses):
         origins = kinds.of_method(catalog.get(variant.method).method).origins(experiment)
-        devices = choose_devices(list(experiment.devices_of(variant)), found, rasterises)
-        for origin, device, precision in itertools.product(origins, devices, experiment.precisions):
+        for origin, device, precision in itertools.product(origins, devices(variant), experiment.precisions):
             yield _Caster(variant, before, origin, device, precision)
 
 

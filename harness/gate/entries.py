@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -38,7 +39,7 @@ _NOT_SCENE = {
     "budget",
     "raster",
 }
-STEP = np.e * 1e-7  # scene units; numbers that people write lie on no edge between two steps
+STEP = math.e * 1e-7  # scene units; numbers that people write lie on no edge between two steps
 
 
 def slot_of(planned: Planned) -> str:

@@ -1,6 +1,7 @@
 """Bound the fourth derivatives of a polynomial f over the cells of a cube about its domain.
 
     table = fourth_bounds(surface)  # float64[32, 32, 32, 16]; table.ravel() has x fastest of the coordinates
+    pyramid = fourth_pyramid(surface)  # float64[37376, 16]: the tables of 32, 16 and 8 cells a side, one after another
 
 Entry [k, j, i, a] is at least 24 / b! |d^b f(p)|, with the powers b = POWERS[a] of x, y and z, for each point p of cell
 (i, j, k) and of its surroundings: of all that is within BEYOND sides of a cell from it, in each coordinate. The last of
@@ -37,6 +38,7 @@ NODES = (
     0.9609375,
 )  # of cubic interpolation on [-1, 1], in both directions of a tile
 GRID = 32  # cells along the cube's side
+TABLES = 3  # of a pyramid: each has half as many cells along the cube's side as the one before
 BEYOND = 1.0  # sides of a cell: how far its entries hold beyond it
 WIDER = Fraction(9, 8)  # half the cube's side over half the domain's
 PARTS = 32  # least number of parts along the cube's side
@@ -84,6 +86,17 @@ def fourth_bounds(surface: Surface, grid: int = GRID, beyond: float = BEYOND) ->
     table[..., :-1] = np.moveaxis(parts, 0, -1)
     table.setflags(write=False)
     return table
+
+
+@lru_cache(maxsize=64)
+def fourth_pyramid(surface: Surface) -> Floats:
+    """Return the tables of GRID, GRID / 2, … cells a side, TABLES of them, as rows: float64[cells of all, 16].
+
+    The result is read-only. Raises FirsthitError as `fourth_bounds`.
+    """
+    rows = np.concatenate([fourth_bounds(surface, GRID >> k).reshape(-1, len(POWERS) + 1) for k in range(TABLES)])
+    rows.setflags(write=False)
+    return rows
 
 
 def remainder_factors(degree: int) -> tuple[float, float]:
@@ -152,6 +165,7 @@ def _rounded(value: Fraction) -> float:
         return math.inf
 
 
+@lru_cache(maxsize=4)  # tables of a pyramid have the same parts
 def _over_parts(surface: Surface, count: int) -> Floats:
     """Bound the derivatives over count³ parts: float64[15, z, y, x]; the unit is half the cube's side."""
     coefficients = expanded(surface).T  # by z, y and x

@@ -23,7 +23,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
-from harness.kernels.fourths import GRID, NODES, POWERS, half_side, interpolation, remainder_factors
+from harness.kernels.fourths import GRID, NODES, TABLES, POWERS, half_side, interpolation, remainder_factors
 from harness.kernels.sections import (
     Lanes,
     TileStage,
@@ -131,7 +131,7 @@ def _shape(
     half = half_side(surface.domain)
     error_x, error_y = remainder_factors(surface.degree)
     items, group = _grouping(stage, lanes)
-    shape: dict[str, int | float] = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS}
+    shape: dict[str, int | float] = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, "TABLES": TABLES, **RECORDS}
     shape |= {"TILE_ITEMS": items, "TILE_GROUP": group, "TILE_TURNS": 8 if lanes == "own" else 1}
     shape |= {"OPEN_TILES": int(lanes != "vector"), "LISTED": int(listed)}
     shape |= {"BLOCK_WIDTH": block_width(lanes), "FINISH_PARTS": 16 if lanes in ("group", "warp") else 1}

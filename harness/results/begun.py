@@ -181,6 +181,10 @@ class Begun:
             gone.append(again)
         return gone
 
+    def without(self, keys: Collection[str]) -> list[Path]:
+        """Return the files of sessions that say nothing of any of these cells."""
+        return [session.path for session in self._sessions if session.cells.keys().isdisjoint(keys)]
+
     def done(self, session: Session, has_row: Callable[[str], bool]) -> None:
         """Remove the file of a session that was timed to its end, and those of others, if all their cells have rows.
 

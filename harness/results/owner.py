@@ -39,6 +39,11 @@ def host() -> str:
     return platform.node() or "a machine without a name"
 
 
+def machine_name() -> str:
+    """Return this machine's short name in its network, which rows tell: what stands before the first point."""
+    return host().partition(".")[0] or host()
+
+
 @cache
 def user() -> str:
     """Return the name of the user, or the number where there is no name."""

@@ -29,7 +29,10 @@ class Probed(TypedDict):
 
 
 class Device(TypedDict):
-    """Hold a device as its driver names it, and what its probes found."""
+    """Hold a device as its driver names it, and what its probes found.
+
+    Of a merged run `machine` and `processor` say where it is, and `name` is how rows are told (Named.device).
+    """
 
     name: str
     title: NotRequired[str | None]
@@ -42,6 +45,8 @@ class Device(TypedDict):
     problem: NotRequired[str | None]
     resident: NotRequired[int | None]
     probes: NotRequired[Probed | None]
+    machine: NotRequired[str | None]
+    processor: NotRequired[str | None]
 
 
 class Machine(TypedDict):
@@ -53,14 +58,40 @@ class Machine(TypedDict):
     python: NotRequired[str]
     platform: NotRequired[str]
     cpu: NotRequired[str]
+    machine: NotRequired[str | None]
     versions: NotRequired[Versions]
 
 
 class Named(TypedDict):
-    """Name a cell."""
+    """Name a cell.
+
+    at: the place of the cell in the whole plan, of which this run has a shard
+    device: how the device of the row is told, where its own name stands for several devices of a merged run
+    """
 
     key: str
     slot: str
+    at: NotRequired[int]
+    device: NotRequired[str]
+
+
+class Sharded(TypedDict):
+    """Name the shard that a run is: the one of this number, from 1, of as many."""
+
+    number: int
+    of: int
+
+
+class Merged(TypedDict):
+    """Name a run that went into a merged one: its folder's name, and what its plan.json said."""
+
+    run: str
+    machine: str
+    commit: NotRequired[str | None]
+    dirty: NotRequired[bool]
+    created: str
+    command: str
+    shard: NotRequired[Sharded]
 
 
 class NamedStudy(TypedDict):
@@ -130,6 +161,8 @@ class PlanFile(TypedDict):
     include: NotRequired[list[str]]
     baseline: NotRequired[str]
     focus: NotRequired[str]
+    shard: NotRequired[Sharded]
+    merged: NotRequired[list[Merged]]
 
 
 def _card_table(table: dict[str, Any]) -> str | None:

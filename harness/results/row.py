@@ -247,11 +247,12 @@ class NamedProgram(TypedDict):
 
 
 class Environment(TypedDict):
-    """State when a row was written, and by which version of the project."""
+    """State when and where a row was made, and by which version of the project."""
 
     started: Annotated[str, Leaf("when the row was written, ISO 8601", always=True)]
     commit: Annotated[str | None, "the project's commit; null without git"]
     dirty: Annotated[bool, Leaf("whether files that git knows were changed since", column=None)]
+    machine: Annotated[str | None, "the name of the machine; null where nobody said it"]
 
 
 class CellRow(TypedDict):

@@ -16,7 +16,7 @@ from harness.devices.executor import CellError
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.devices.steps import Executor
-from harness.results import declared, git, sealed, sources
+from harness.results import declared, git, owner, sealed, sources
 from harness.results.writing import write_atomically
 
 if TYPE_CHECKING:
@@ -50,8 +50,11 @@ def _is_versioned() -> bool:
     return _git("ls-files", "--error-unmatch", str(Path(__file__))) is not None
 
 
-def describe() -> dict[str, Any]:
-    """Return versions, commit and machine, as plan.json keeps them."""
+def describe(machine: str | None = None) -> dict[str, Any]:
+    """Return versions, commit and machine, as plan.json keeps them.
+
+    `machine` is the name of this one; None: its short name in its network.
+    """
     versions = {}
     for package in PACKAGES:
         try:
@@ -65,6 +68,7 @@ def describe() -> dict[str, Any]:
         "python": platform.python_version(),
         "platform": platform.platform(),
         "cpu": host.processor(),
+        "machine": machine or owner.machine_name(),
         "versions": versions,
     }
 

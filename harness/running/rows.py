@@ -73,7 +73,7 @@ def row_of(
 ) -> CellRow:
     """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried.
 
-    `environment` tells the project's `commit` and whether it is `dirty` (running.environment.describe).
+    `environment` tells the project's `commit`, whether it is `dirty`, and the `machine` (running.environment.describe).
     """
     cell, own = planned.cell, planned.kind.facts(planned.cell)
     programs = ((planned.timed,) if planned.timed else ()) + planned.checks
@@ -123,6 +123,7 @@ def row_of(
         "environment": {
             "commit": environment["commit"],
             "dirty": environment["dirty"],
+            "machine": environment["machine"],
             "started": datetime.now(UTC).isoformat(timespec="seconds"),
         },
         "seconds": left.seconds if left else 0.0,

@@ -22,9 +22,10 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.host import Host
 from harness.devices.probes import Probes
 from harness.devices.steps import Executor
-from harness.experiment import kinds, plan, reading, targets
+from harness.experiment import kinds, plan, reading, shards, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
+from harness.experiment.shards import Shard, Share
 from harness.experiment.shipped import located
 from harness.experiment.size import cells_of, check_size
 from harness.hardcases import groups
@@ -51,6 +52,16 @@ class Read:
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
     catalog: Catalog
     yes: bool  # plans of any size are run
+    shard: Shard | None = field(default=None, kw_only=True)  # None: the whole config
+    machine: str | None = field(default=None, kw_only=True)  # the name that rows tell; None: its name in its network
+
+    def folder(self, runs: Path, one: Experiment) -> Path:
+        """Return the folder of the results of the config, or of one that it includes."""
+        return runs / (self.shard.named(one.name) if self.shard else one.name)
+
+    def shares(self) -> list[Share | None]:
+        """Return what the shard has of each part; None for a part that is run whole."""
+        return [*shards.shares(self.parts, self.catalog, self.shard)] if self.shard else [None] * len(self.parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,13 +177,18 @@ def read(
     devices: Sequence[str] = (),
     watcher: Watcher | None = None,
     yes: bool = False,
+    *,
+    shard: str | None = None,
+    machine: str | None = None,
 ) -> Read:
     """Read a config, given by path or by the name of one that firsthit ships.
 
-    `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
-    FirsthitError where there is no such config, something in it is wrong, it includes configs that include others, or
-    it has more cells than are planned without `yes` (harness.experiment.size).
+    `plugins` is a folder of further methods; `devices` take the place of those that the config names. `shard`, such as
+    "3/16", is the part that is run, `machine` the name of this machine that rows tell. Raises FirsthitError where there
+    is no such config, something in it is wrong, it includes configs that include others, it has more cells than are
+    planned without `yes` (harness.experiment.size), or there is no such shard.
     """
+    part_of = None if shard is None else shards.read(shard)
     catalog, hears = find_methods(plugins).with_stand_ins(), watcher or Watcher()
     whole, parts = reading.load_all(located(name), catalog)
     for line in catalog.warnings:
@@ -181,7 +197,7 @@ def read(
     for told in [check_size(part, catalog, yes=yes) for part in parts]:
         if told:
             hears.warned(told)
-    return Read(whole, tuple(parts), catalog, yes)
+    return Read(whole, tuple(parts), catalog, yes, shard=part_of, machine=machine)
 
 
 def load(given: Read, watcher: Watcher | None = None, fleet: Fleet | None = None) -> Loaded:
@@ -197,7 +213,9 @@ def load(given: Read, watcher: Watcher | None = None, fleet: Fleet | None = None
     made = settled(parts, found, hears, known)
     for part in made.parts:
         check_size(part, given.catalog, found, given.yes)
-    return Loaded(given.whole, made.parts, given.catalog, given.yes, found, {**known, **made.tried}, hosts)
+    tried = {**known, **made.tried}
+    told = (given.whole, made.parts, given.catalog, given.yes, found, tried, hosts)
+    return Loaded(*told, shard=given.shard, machine=given.machine)
 
 
 def run(
@@ -220,7 +238,7 @@ def run(
     the fleet cannot be reached any more, or a result cannot be written.
     """
     hears = watcher or Watcher()
-    folders = [runs / one.name for one in (given.whole, *given.parts)]
+    folders = [given.folder(runs, one) for one in (given.whole, *given.parts)]
     with locked(folders, command, wait=wait, doing=hears.doing):
         return _run(load(given, hears, fleet), runs, command, force, retry_failed, hears, fleet)
 
@@ -228,15 +246,15 @@ def run(
 def _run(
     loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher, fleet: Fleet | None
 ) -> Run:
-    folder = runs / loaded.whole.name
+    folder = loaded.folder(runs, loaded.whole)
     if loaded.whole.included:
-        told = _described(loaded.whole, command, describe())
-        parts = [part.name for part in loaded.parts]
+        told = _described(loaded, loaded.whole, command, describe(loaded.machine))
+        parts = [loaded.folder(runs, part).name for part in loaded.parts]
         Store(folder).write_plan(told | {"include": parts, "devices": [], "cells": []})
     again: Again = "everything" if force else "unfinished" if retry_failed else "nothing"
     ended = []
-    for part in loaded.parts:
-        ended.append(_run_part(part, loaded, runs, command, again, hears, fleet))
+    for part, share in zip(loaded.parts, loaded.shares(), strict=True):
+        ended.append(_run_part(part, share, loaded, runs, command, again, hears, fleet))
         hears.failed((ended[-1].rows + ended[-1].reused).of(UNFINISHED))
         hears.ended(ended[-1])
     lost = tuple(dict.fromkeys(line for one in ended for line in one.lost))
@@ -249,9 +267,10 @@ def _told(config: Path) -> str:
     return str(whole.relative_to(ROOT) if whole.is_relative_to(ROOT) else config)
 
 
-def _described(experiment: Experiment, command: str, environment: Mapping[str, Any]) -> dict[str, Any]:
+def _described(given: Read, experiment: Experiment, command: str, environment: Mapping[str, Any]) -> dict[str, Any]:
     """Return what every plan.json says first."""
-    return {
+    shard = {"shard": dataclasses.asdict(given.shard)} if given.shard else {}
+    return shard | {
         "name": experiment.name,
         "title": experiment.config.title,
         "config": _told(experiment.path),
@@ -266,6 +285,7 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
 
 def _run_part(
     part: Experiment,
+    share: Share | None,
     loaded: Loaded,
     runs: Path,
     command: str,
@@ -273,29 +293,34 @@ def _run_part(
     hears: Watcher,
     fleet: Fleet | None,
 ) -> Run:
-    """Run the cells and studies of one config, and write its plan.json."""
-    store, environment = Store(runs / part.name), describe()
+    """Run the cells and studies of one config, or its share of a shard, and write its plan.json."""
+    store, environment = Store(loaded.folder(runs, part)), describe(loaded.machine)
+    casts = bool(part.variants and (share is None or share.groups))
+    only, named = (None, part.config.studies) if share is None else (share.groups, share.studies)
+    if share and share.is_empty:
+        hears.told(f"{store.folder}: shard {loaded.shard} has no cell of {part.path}; there is nothing to run")
     executor = LocalExecutor(part.config.budget.timeout, part.config.budget.memory)
     try:
-        chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
-        with hears.doing(_announced(part, loaded.catalog, chosen)) as tell:
+        chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if casts else {}
+        with hears.doing(_announced(part, loaded, chosen)) as tell:
             here = [info for info in chosen.values() if info]
             tried = []
             for info in here:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
-            planned = _planned(part, loaded, [info for info, _ in tried], tell)
+            stated = part, loaded.catalog, [info for info, _ in tried], True, tell, only, loaded.hosts
+            planned = plan.plan(*stated) if casts else []
         lost = tuple(f"{info.name}: {info.problem}" for info, _ in tried if isinstance(info, LostDevice))
         for line in lost:
             hears.wrong(line)
         for remark in [*remarks(part), *filter(None, [memory.unwatched()])]:
             hears.warned(remark)
         store.write_plan(
-            _described(part, command, environment)
+            _described(loaded, part, command, environment)
             | {"devices": [_device(info, found) for info, found in tried], "peaks": dict(part.peaks)}
-            | _named(part, planned, loaded.catalog)
+            | _named(part, planned, named, loaded)
         )
-        _run_studies(part.config.studies, store.folder, again == "everything", hears)
+        _run_studies(named, store.folder, again == "everything", hears)
         found, begun, old = begin(planned, store, again)
         if swept := [*old, *sweep_below(store.folder)]:
             hears.told(f"{store.folder}: removed {plural(len(swept), 'file')} that killed commands left")
@@ -320,10 +345,6 @@ def _run_part(
     return Run(store.folder, Rows([rows]), Rows([found.kept]), lost)
 
 
-def _planned(part: Experiment, loaded: Loaded, devices: list[DeviceInfo], tell: Callable[[str], None]) -> list[Planned]:
-    return plan.plan(part, loaded.catalog, devices, tell=tell, hosts=loaded.hosts) if part.variants else []
-
-
 def remarks(part: Experiment) -> list[str]:
     """Return sentences on surfaces that their domains cut or do not hold, and on what of their files is left out."""
     from surfaces.proofs.extent import remark
@@ -337,22 +358,29 @@ def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:
     return dataclasses.asdict(info) | {"versions": dict(info.versions), "probes": probes}
 
 
-def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
+def _announced(part: Experiment, loaded: Loaded, chosen: Mapping[str, DeviceInfo | None]) -> str:
     """Say what will be run where, before anything slow is done for it."""
     here = [info for info in chosen.values() if info]
-    cells = cells_of(part, catalog, here)
+    cells = plural(cells_of(part, loaded.catalog, here), "cell")
+    what = f"shard {loaded.shard} of {cells}" if loaded.shard else cells
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {plural(cells, 'cell')}{where}; preparing devices and cells"
+    return f"{part.path}: {what}{where}; preparing devices and cells"
 
 
-def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
-    """Return what a plan.json names: cells, families of hard rays, methods and studies."""
+def _named(part: Experiment, planned: Sequence[Planned], named: Sequence[str], loaded: Loaded) -> dict[str, Any]:
+    """Return what a plan.json names: cells, families of hard rays, methods, and the studies `named`."""
+
+    def listed(kind: str) -> list[dict[str, Any]]:
+        """Name the cells of a list; those of a shard with their places in the whole plan, by which it is merged."""
+        own = (p for p in planned if p.kind.listed == kind)
+        return [{"slot": p.cell.slot, "key": p.key} | ({"at": p.at} if loaded.shard else {}) for p in own]
+
     return {
-        "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "cells"],
-        "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "families"],
+        "cells": listed("cells"),
+        "families": listed("families"),
         "family_facts": {name: groups.facts(name) for name in part.config.families},
-        "methods": {v.method: card(catalog.get(v.method)) for v in part.variants},
-        "studies": [{"study": name, "key": studies.key(name)} for name in part.config.studies],
+        "methods": {v.method: card(loaded.catalog.get(v.method)) for v in part.variants},
+        "studies": [{"study": name, "key": studies.key(name)} for name in named],
     }
 
 

@@ -1,22 +1,26 @@
-"""Check all rows of run folders again, and collect what does not hold."""
+"""Check all rows of run folders again, and collect what does not hold.
+
+Rows are read and checked in chunks, which processes may take (harness.spreading). Then the rows of the sample are held
+against truth that is certified anew: rows that share it one after the other, so that one truth at a time is held.
+"""
 
 from __future__ import annotations
 
+import itertools
 import random
-from collections import Counter, OrderedDict
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from harness import spreading
 from harness.contract import FirsthitError, Surface, Truth
 from harness.oracle import cache, first_hits
 from harness.results import plan_file, sealed
-from harness.results.store import Row, Store
-from harness.verifying import answers, rungs, stated, times
-from harness.verifying import truth as truths
-from harness.verifying.model import CannotTell, Wrong
-from harness.verifying.truth import Rays
+from harness.verifying.model import Wrong
+from harness.verifying.one import FAMILY, Files, Held, Sampled, checked, family_anew, hold_anew, row_of
+from harness.verifying.truth import Rays, rays_for
 
 CHECKS = {
     "file": "it can be read, its checksum holds, and it does not contradict itself",
@@ -26,8 +30,8 @@ CHECKS = {
     "truth": "the truth certified anew is the one it was judged by",
     "stored truth": "the truth that the run's folder keeps is the one it was judged by",
 }
-MOST_TRUTHS = 16  # that are held at once
-DAMAGED = (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError, MemoryError)
+CHUNK = 32  # rows that one process takes at a time
+AT_ONCE = 32  # chunks between two lines that tell how far it is
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,9 @@ class Verified:
     not_checked: how many it says nothing of, by check and reason
     failing: what does not hold
     missing: cells that a plan names and that have no row; no fault
+    certifiable: how many rows are of rays whose truth can be certified anew, or of a family
+    sampled: of how many of these it was, or was tried
+    seed: what chose them
     """
 
     rows: int = 0
@@ -56,6 +63,16 @@ class Verified:
     not_checked: Counter[tuple[str, str]] = field(default_factory=Counter)
     failing: list[Failing] = field(default_factory=list)
     missing: int = 0
+    certifiable: int = 0
+    sampled: int = 0
+    seed: int = 0
+
+    def add(self, held: Held) -> None:
+        """Add what was found of a row."""
+        self.rows += 1
+        self.checked.update(held.checked)
+        self.not_checked.update(held.not_checked)
+        self.failing += [Failing(held.file, held.slot, check, wrong) for check, wrong in held.failing]
 
 
 def folders_of(folder: Path) -> list[Path]:
@@ -89,112 +106,83 @@ def verify(
     The truth of as many rows as `sample` says of their number is certified anew; `seed` chooses them. Raises
     FirsthitError where a folder is no run.
     """
-    found, rows = Verified(), list[tuple[Store, Path, Row]]()
-    for folder in (part for one in folders for part in folders_of(one)):
-        rows += _rows_of(folder, found)
-    certifiable = [i for i, (_, _, row) in enumerate(rows) if row.get("accuracy") or row.get("rungs")]
-    chosen = set(random.Random(seed).sample(certifiable, min(len(certifiable), sample(len(certifiable)))))
-    kept = _Truths()
-    for number, (store, file, row) in enumerate(rows):
-        tell(f"checking [{number + 1}/{len(rows)}] {row['slot']}")
-        found.rows += 1
-        _Row(store, file, row, found, kept).check(anew=number in chosen)
+    found = Verified(seed=seed)
+    chunks = [chunk for one in folders for folder in folders_of(one) for chunk in _chunks(folder, found)]
+    number = sum(len(chunk.keys) for chunk in chunks)
+    held: list[Held] = []
+    for start in range(0, len(chunks), AT_ONCE):
+        tell(f"checking [{len(held) + 1}/{number}] {chunks[start].folder}")
+        held += itertools.chain.from_iterable(spreading.answers(checked, chunks[start : start + AT_ONCE]))
+    certifiable = [k for k, one in enumerate(held) if one.certifiable]
+    chosen = random.Random(seed).sample(certifiable, min(len(certifiable), sample(len(certifiable))))
+    found.certifiable, found.sampled = len(certifiable), len(chosen)
+    for k, anew in _anew(held, sorted(chosen), tell):
+        held[k] = held[k].with_anew(anew)
+    for one in held:
+        found.add(one)
     return found
 
 
-def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]:
-    """Yield a folder's rows in the order of their files; note those that cannot be read, or contradict its plan."""
-    store, plan = Store(folder), _plan(folder)
+def _chunks(folder: Path, found: Verified) -> list[Files]:
+    """Return a folder's files of rows in chunks, in their order; note what its plan names twice, or has no row."""
+    plan = _plan(folder)
     listed = [*plan["cells"], *plan.get("families", ())]
     slots = {cell["key"]: cell["slot"] for cell in listed}
-    named = Counter(cell["slot"] for cell in listed)
-    for slot, count in named.items():
+    for slot, count in Counter(cell["slot"] for cell in listed).items():
         if count > 1:
             found.failing.append(Failing(folder / "plan.json", slot, "file", Wrong("cells", f"{count} cells", "one")))
-    there = set()  # keys of rows, damaged ones too, which are no missing ones
-    for file in sorted((folder / "cells").glob("*.json")):
-        row = store.read(file.stem, older=True)
-        there.add(file.stem)
-        if row is None:
-            why = store.unreadable.get(file.stem, "it is gone").removeprefix(f"{file} is ")
-            found.rows += 1
-            found.failing.append(Failing(file, slots.get(file.stem, ""), "file", Wrong("the file", why, "a row")))
+    keys = sorted(file.stem for file in (folder / "cells").glob("*.json"))
+    found.missing += len(slots.keys() - set(keys))
+    parts = [keys[k : k + CHUNK] for k in range(0, len(keys), CHUNK)]
+    return [Files(folder, tuple(part), {key: slots[key] for key in part if key in slots}) for part in parts]
+
+
+def _anew(held: list[Held], chosen: list[int], tell: Callable[[str], None]) -> Iterator[tuple[int, Held]]:
+    """Yield the numbers of chosen rows, and what holding them against truth that is certified anew found.
+
+    Rays are certified here, by as many processes as there are; then these hold the rows against that.
+    """
+    sharing: dict[str, list[int]] = {}
+    for k in chosen:
+        sharing.setdefault(held[k].truth, []).append(k)
+    done = 0
+    for name, numbers in sorted(sharing.items()):
+        tell(f"certifying [{done + 1}/{len(chosen)}] {held[numbers[0]].slot}")
+        done += len(numbers)
+        files = [held[k].file for k in numbers]
+        if name.startswith(FAMILY):
+            yield from zip(numbers, _of_family(files), strict=True)
             continue
-        if slots.get(file.stem, row["slot"]) != row["slot"]:
-            wrong = Wrong("slot", row["slot"], slots[file.stem])
-            found.failing.append(Failing(file, row["slot"], "file", wrong))
-        if sealed.is_sealed(file):
-            found.checked["file"] += 1
-        else:
-            found.not_checked["file", "it has no checksum: a version before checksums wrote it, or it was changed"] += 1
-        yield store, file, row
-    found.missing += len(slots.keys() - there)
+        tried = Held(files[0], "")
+        truth = _certified(tried) if name else None
+        if tried.failing:  # the row that was asked for them names rays that are none, and so do the others
+            yield from ((k, tried) for k in numbers)
+            continue
+        parts = [Sampled(tuple(files[k : k + CHUNK]), truth) for k in range(0, len(files), CHUNK)]
+        answers = spreading.answers(hold_anew, parts)
+        yield from zip(numbers, itertools.chain.from_iterable(answers), strict=True)
 
 
-class _Truths:
-    """Certify rays, and hold the newest answers, since all variants of a view are judged by the same."""
+def _certified(tried: Held) -> Truth | None:
+    """Certify the rays of a row; None where that cannot be done, which `tried` then holds."""
+    found: list[Truth] = []
 
-    def __init__(self) -> None:
-        self._held: OrderedDict[str, Truth] = OrderedDict()
+    def certify() -> Iterable[Wrong]:
+        found.append(first_hits(*rays_for(row_of(tried.file))))
+        return ()
 
-    def certified(self, surface: Surface, rays: Rays) -> Truth:
+    tried.check("truth", certify)
+    return found[0] if found else None
+
+
+def _of_family(files: Iterable[Path]) -> list[Held]:
+    """Hold rows of one family against the truth of its rays, which is certified once."""
+    known: dict[str, Truth] = {}
+
+    def certified(surface: Surface, rays: Rays) -> Truth:
         name = cache.truth_path(Path(), surface, rays).name
-        if name not in self._held:
-            self._held[name] = first_hits(surface, rays)
-            if len(self._held) > MOST_TRUTHS:
-                self._held.popitem(last=False)
-        self._held.move_to_end(name)
-        return self._held[name]
+        if name not in known:
+            known[name] = first_hits(surface, rays)
+        return known[name]
 
-
-@dataclass
-class _Row:
-    """Check one row, and add what is found."""
-
-    store: Store
-    file: Path
-    row: Row
-    found: Verified
-    truths: _Truths
-    _arrays: answers.Arrays | None = None
-
-    def check(self, anew: bool) -> None:
-        self._one("stated", lambda: stated.stated(self.row))
-        self._one("times", lambda: times.times(self.row))
-        if self.row.get("family") is not None:
-            if anew:
-                self._one("truth", lambda: rungs.rungs(self.row, self.truths.certified))
-            return
-        self._one("answers", self._answers)
-        if self._arrays is not None:
-            self._one("truth" if anew else "stored truth", lambda: self._truth(anew))
-
-    def _one(self, name: str, check: Callable[[], Iterable[Wrong]]) -> None:
-        """Make one check. A row that it cannot make anything of is damaged, which is no fault of the check."""
-        wrong: list[Wrong] = []
-        try:
-            wrong.extend(check())
-            self.found.checked[name] += 1
-        except CannotTell as reason:
-            self.found.not_checked[name, str(reason)] += 1
-        except OSError as error:
-            wrong.append(Wrong("the row", f"cannot read {error.filename}: {error.strerror}", "what can be checked"))
-        except FirsthitError as error:
-            wrong.append(Wrong("the row", str(error), "what can be checked"))
-        except DAMAGED as error:
-            wrong.append(Wrong("the row", f"{type(error).__name__}: {error}", "values of a row"))
-        self.found.failing += [Failing(self.file, self.row["slot"], name, one) for one in wrong]
-
-    def _answers(self) -> Iterable[Wrong]:
-        self._arrays = answers.arrays_of(self.store.folder, self.row)
-        return answers.answers(self.row, self._arrays)
-
-    def _truth(self, anew: bool) -> Iterable[Wrong]:
-        surface, rays = truths.rays_for(self.row)
-        stored = cache.load(cache.truth_path(self.store.truth, surface, rays), len(rays))
-        if not anew and stored is None:
-            raise CannotTell("its truth is kept by no file here, and its row is not in the sample")
-        assert self._arrays is not None
-        found = self.truths.certified(surface, rays) if anew else stored
-        assert found is not None
-        return truths.truth(self.row, self._arrays, surface, rays, found)
+    return [family_anew(file, certified) for file in files]

@@ -8,6 +8,8 @@ normals and residuals the row's value has to lie between those of both sides.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,7 +18,7 @@ from numpy.typing import NDArray
 from harness import memory
 from harness.accuracy import judge
 from harness.accuracy.check import BYTES_PER_RAY
-from harness.contract import UNIT_ROUNDOFF, Hits, RayStatus, Surface, Truth, TruthStatus, plural
+from harness.contract import UNIT_ROUNDOFF, Hits, RayStatus, Surface, Truth, TruthStatus, View, plural
 from harness.results import sources
 from harness.scenes.camera import camera_for, meets, pixel_footprint, rays_of
 from harness.verifying.answers import TOP, Arrays, quantiles
@@ -34,9 +36,8 @@ def rays_for(row: Mapping[str, Any]) -> tuple[Surface, Rays]:
         raise CannotTell("it has no accuracy")
     if row["stage"] == "raster":
         raise CannotTell("its rays are those of fragments, which only the device knows")
-    surface, view = surface_of(row), view_of(row)
-    if not is_known(surface) and view.distance is None:
-        raise CannotTell("its eye's distance follows from a length of a surface that the catalog here has not")
+    surface = surface_of(row)
+    view = _placed(row, surface)
     size = row["accuracy"]["size"]
     what, instead = f"certifying {plural(size**2, 'ray')}", "verify it on a machine with more memory"
     if reason := memory.refusal(BYTES_PER_RAY * size**2, what, instead):
@@ -44,9 +45,25 @@ def rays_for(row: Mapping[str, Any]) -> tuple[Surface, Rays]:
     return surface, rays_of(camera_for(view, surface), size)
 
 
-def truth(row: Mapping[str, Any], kept: Arrays, surface: Surface, rays: Rays, found: Truth) -> Iterator[Wrong]:
-    """Yield what a row and its arrays say otherwise than the certified truth of its rays."""
+def _placed(row: Mapping[str, Any], surface: Surface) -> View:
+    """Return a row's view, with its eye at the distance that the row tells if it follows from lengths unknown here."""
+    view, camera = view_of(row), row.get("camera")
+    if is_known(surface) or view.distance is not None:
+        return view
+    if not camera:
+        raise CannotTell("its eye's distance follows from a length of a surface that the catalog here has not")
+    return replace(view, distance=camera["distance"])
+
+
+def truth(row: Mapping[str, Any], kept: Arrays | None, surface: Surface, rays: Rays, found: Truth) -> Iterator[Wrong]:
+    """Yield what a row and its arrays say otherwise than the certified truth of its rays.
+
+    Without arrays the row's own counts of that truth are held against it.
+    """
     told = row["accuracy"]
+    if kept is None:
+        yield from _counts(row, surface, rays, found)
+        return
     undecided = (kept["truth"] == TruthStatus.UNDECIDED) | (found.status == TruthStatus.UNDECIDED)
     same = _same_oracle(row)
     odd = (kept["truth"] != found.status) & (same | ~undecided)
@@ -67,6 +84,19 @@ def truth(row: Mapping[str, Any], kept: Arrays, surface: Surface, rays: Rays, fo
     yield from _in_other_units(row, kept, surface, rays, found)
 
 
+def _counts(row: Mapping[str, Any], surface: Surface, rays: Rays, found: Truth) -> Iterator[Wrong]:
+    """Yield counts of rays by their truth that are others; an undecided ray there may be a decided one here."""
+    told = row["accuracy"]
+    yield from differing("accuracy.rays", told["rays"], len(rays))
+    yield from differing("accuracy.domain_rays", told["domain_rays"], int(meets(surface.domain, rays).sum()))
+    hits = int(np.isin(found.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)).sum())
+    misses = int((found.status == TruthStatus.MISS).sum())
+    slack = 0 if _same_oracle(row) else told["undecided"] + len(rays) - hits - misses
+    for name, count in (("truth_hits", hits), ("truth_misses", misses)):
+        if abs(told[name] - count) > slack:
+            yield Wrong(f"accuracy.{name}", told[name], count)
+
+
 def _same_oracle(row: Mapping[str, Any]) -> bool:
     """Tell whether the row's truth is by this oracle, packages and processor: then estimates are the same bits."""
     identity = row["identity"]
@@ -75,8 +105,13 @@ def _same_oracle(row: Mapping[str, Any]) -> bool:
         return False
     from harness.devices.host import processor
 
-    ours = {name: one for name, one in sources.hashes(*sources.TRUTH).items() if sources.left_out(name) is None}
-    return identity.get("processor") == processor() and all(files.get(name) == one for name, one in ours.items())
+    return identity.get("processor") == processor() and all(files.get(name) == one for name, one in _ours().items())
+
+
+@cache
+def _ours() -> dict[str, str]:
+    """Return the hashes of the oracle's files here that a row names."""
+    return {name: one for name, one in sources.hashes(*sources.TRUTH).items() if sources.left_out(name) is None}
 
 
 def _in_other_units(
@@ -88,7 +123,7 @@ def _in_other_units(
     error, t = kept["error"][measured].astype(np.float64), found.lower[measured]
     kind_of_t = np.float32 if row["precision"] == "float32" else np.float64
     allowed = np.fmax(found.condition[measured], 1.0) * UNIT_ROUNDOFF[row["precision"]] * surface.domain.radius
-    footprint = pixel_footprint(camera_for(view_of(row), surface), row["size"])
+    footprint = pixel_footprint(camera_for(_placed(row, surface), surface), row["size"])
     units = {
         "pixel_error": footprint * np.maximum(t, np.finfo(float).tiny),
         "ulp_error": np.spacing(np.abs(t).astype(kind_of_t)).astype(np.float64),

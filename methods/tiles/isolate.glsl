@@ -4,6 +4,8 @@
 #define BALLAST 7.0            // worst rounding error of TRANSFORM in unit roundoffs of the largest coefficient,
 #define MIXING 220.0           // and of the largest difference of two lanes
 #define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
+#define COARSE 8                // highest degree at which bounds are looked up in coarser tables first
+#define NEGLIGIBLE 0.25        // part that the remainder may have of what a tile's rays differ by, before it is looked up
 
 // A pyramid from the eye that holds a tile's rays: at depth s it is the parallelogram of the middle ray's point plus
 // s (u across + v down), u and v in [-1, 1]. Its parameter is s less frame.middle.
@@ -38,8 +40,8 @@ real widest_of(Tile tile) {
                max(fabs(tile.across.y) + fabs(tile.down.y), fabs(tile.across.z) + fabs(tile.down.z)));
 }
 
-int cell_of(real place) {
-    return clamp(int(place), 0, GRID - 1);
+int cell_of(real place, int side) {
+    return clamp(int(place), 0, side - 1);
 }
 
 // Returns |v| to each lane's power, 0 to 4.
@@ -60,34 +62,57 @@ wide remainder_weight(Work work, Tile tile) {
 }
 
 // Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives, one a
-// lane, that are looked up along the tile's middle ray. A cell's bounds hold one cell beyond it. So if the tile's rays
-// are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
-real remainder_between(Work work, Frame frame, Tile tile, Lanes weights, real aside, real start, real stop) {
-    real cells = real(GRID) / (2.0 * TABLE_HALF);
+// lane, that are looked up along the tile's middle ray in the table whose cells are 2^coarser times as long as those of
+// the finest. A cell's bounds hold one cell beyond it. So if the tile's rays are `aside` cells from the middle one, steps
+// of 2 (1 - aside) cells leave nothing out. Up to degree 4 the derivatives are the same everywhere.
+real remainder_by(Work work, Frame frame, Tile tile, Lanes weights, real widest, int coarser, real start, real stop) {
+    if (N < 4) return 0.0;
+    int side = GRID >> coarser;
+    int before = 0;  // cells of finer tables
+    for (int k = 0; k < coarser; k++) before += (GRID >> k) * (GRID >> k) * (GRID >> k);
+    real cells = real(side) / (2.0 * TABLE_HALF);
+    real aside = cells * widest;
     vec3 a = difference(ray_point(tile.middle, start), DOMAIN_CENTER);
     vec3 b = difference(ray_point(tile.middle, stop), DOMAIN_CENTER);
     vec3 way = difference(b, a);
     real most_way = max(fabs(way.x), max(fabs(way.y), fabs(way.z)));
-    int steps = 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside)));
-    real share = 1.0 / real(steps);
+    int steps = N > 4 ? 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside))) : 0;
+    real share = N > 4 ? 1.0 / real(steps) : 2.0;  // 2: the bound is taken at the largest depth
     Lanes bounds;
     EACH_LANE {
         KEEP_NUMBER(bounds, wide(0.0))
     }
     for (int k = 0; k <= steps; k++) {
         vec3 p = moved(a, share * real(k), way);
-        int z = cell_of(cells * p.z + 0.5 * real(GRID));
-        int y = cell_of(cells * p.y + 0.5 * real(GRID));
-        int x = cell_of(cells * p.x + 0.5 * real(GRID));
+        int z = cell_of(cells * p.z + 0.5 * real(side), side);
+        int y = cell_of(cells * p.y + 0.5 * real(side), side);
+        int x = cell_of(cells * p.x + 0.5 * real(side), side);
+        int cell = N > 4 ? before + (z * side + y) * side + x : 0;
         real depth = frame.middle + min(start + share * (real(k) + 0.5) * (stop - start), stop);
         real grown = (depth * depth) * (depth * depth);
         EACH_LANE {
-            RAISE_NUMBER(bounds, grown * fourth_row(work, 16 * ((z * GRID + y) * GRID + x)))
+            RAISE_NUMBER(bounds, grown * fourth_row(work, 16 * cell))
         }
     }
-    real bound = 0.0;
+    real sum = 0.0;
     EACH_LANE {
-        bound += total(NUMBER(weights) * NUMBER(bounds));
+        sum += total(NUMBER(weights) * NUMBER(bounds));
+    }
+    return sum;
+}
+
+// Bounds the remainder as remainder_by, by a finer table only where a coarser one leaves so much that it may decide:
+// more than a share of `spread`, by which the tile's rays differ.
+real remainder_between(Work work, Frame frame, Tile tile, Lanes weights, real widest, real spread, real start,
+                       real stop) {
+    real bound = REAL_INFINITY;
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    int finest = 0;
+    while (N > 4 && finest < TABLES - 1 && cells * widest > ASIDE * real(1 << finest)) finest += 1;
+    for (int coarser = max(finest, N <= COARSE ? TABLES - 1 : 0); coarser >= finest; coarser--) {
+        if (bound * GROWTH[0] > NEGLIGIBLE * spread) {
+            bound = min(bound, remainder_by(work, frame, tile, weights, widest, coarser, start, stop));
+        }
     }
     return bound;
 }
@@ -164,7 +189,7 @@ void isolate_tiles(Work work, Frame frame) {
     int above = tiles_before(work.size, 2 * work.tile);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
-    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    real widest_allowed = N > 4 ? ASIDE * real(1 << (TABLES - 1)) * (2.0 * TABLE_HALF) / real(GRID) : REAL_INFINITY;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
     Rows to_powers;
@@ -208,7 +233,7 @@ void isolate_tiles(Work work, Frame frame) {
         lean.across = 0.0;
         lean.down = 0.0;
         bool leans = false;
-        real aside = cells * frame.far * widest_of(tile);
+        real widest = frame.far * widest_of(tile);
         real corner = 1.0009765625 * frame.far * corner_of(tile);
         real rim = RIM * corner + rounding;
         real near = REAL_INFINITY;
@@ -226,7 +251,7 @@ void isolate_tiles(Work work, Frame frame) {
         stop = min(stop, end);
         if (stop <= start) stop = end;
         int verdict = start < end ? SEARCHING : EMPTY;
-        if (aside > ASIDE && verdict == SEARCHING) {
+        if (widest > widest_allowed && verdict == SEARCHING) {
             verdict = OPEN;
             stop = end;
         }
@@ -276,7 +301,7 @@ void isolate_tiles(Work work, Frame frame) {
                 Errors errors;
                 errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
                 errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
-                             + remainder_between(work, frame, tile, weights, aside, start, stop);
+                             + remainder_between(work, frame, tile, weights, widest, spread, start, stop);
                 errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
                                                         + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
@@ -332,15 +357,15 @@ void isolate_tiles(Work work, Frame frame) {
                     spent += 64;
                     Tile other = leaning(tile, lean);
                     real share = fabs(lean.across) + fabs(lean.down);
-                    real other_aside = cells * frame.far * widest_of(other);
-                    if (share < 0.25 && other_aside < ASIDE && lean.range < width) {
+                    real other_widest = frame.far * widest_of(other);
+                    if (share < 0.25 && other_widest < widest_allowed && lean.range < width) {
                         verdict = SEARCHING;
                         tries = 0;
                         tile = other;
                         EACH_LANE {
                             KEEP_NUMBER(weights, remainder_weight(work, tile))
                         }
-                        aside = other_aside;
+                        widest = other_widest;
                         rim = RIM * 1.0009765625 * frame.far * corner_of(tile) + rounding;
                         start = (frame.middle + start) * (1.0 - share) - frame.middle - rounding;
                         end = (frame.middle + end) * (1.0 + share) - frame.middle + rounding;

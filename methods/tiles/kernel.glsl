@@ -140,8 +140,8 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 }
 
 // Newton's method on f itself within [a, b], from t on. `g` is the inverse of f's slope; it becomes that of the secant
-// where a step is so long that rounding errors do not matter. `good`: the last step is short, and f changes its sign between two points at
-// which it was evaluated.
+// where a step is so long that rounding errors do not matter. `good`: the last step is short, and f changes its sign
+// between two points at which it was evaluated.
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
 Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
@@ -178,26 +178,43 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
         step = next - t;
     }
-    // one last step with the mean of f over points around t, in which rounding errors cancel; a second one where the
-    // first leaves too much by its own estimate: it leaves that share of itself which is left of f
+    // one last step with the mean of f over points around t, in which rounding errors cancel: over more of them where f
+    // between the first ones is far from a line; a second one where the first leaves too much by its own estimate: it
+    // leaves that share of itself which is left of f
     yes short_step = AT_MOST(fabs(step), wide(longest));
     wide left = fabs(step);
-    for (int turn = 0; turn < LAST_STEPS && PAIRS > 0; turn++) {
+    yes sloped = NOT(NOWHERE);  // g is about the slope that f's values have
+    real rough = UNCERTAIN * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);
+    for (int turn = 0; turn < LAST_STEPS && FIRST_PAIRS > 0; turn++) {
         if (turn > 0 && !any_lane(BOTH(looking, MORE(left, wide(tolerance))))) break;
         wide sum = wide(0.0);
-        for (int k = 1; k <= PAIRS; k++) {
-            real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+        wide bends = wide(0.0);
+        wide rise = wide(0.0);
+        real apart = 0.0;
+        int pairs = 0;
+        for (int k = 1; k <= max(FIRST_PAIRS, PAIRS); k++) {
+            if (k == FIRST_PAIRS + 1 && !any_lane(BOTH(looking, MORE(bends, wide(rough))))) break;
+            pairs = k;
+            real place = k <= FIRST_PAIRS ? FIRST_APART * real(k) : APART * real(k - FIRST_PAIRS);
+            real away = place * (UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
             wide before = wide_value(wide_point(rays.o, next - away, rays.d));
             wide after = wide_value(wide_point(rays.o, next + away, rays.d));
             sum += before + after;
+            bends += fabs(g * (after - before) - 2.0 * away);
+            rise += after - before;
+            apart += 2.0 * away;
             seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
             seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
         }
-        evaluations += 2 * PAIRS;
-        wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
+        evaluations += 2 * pairs;
+        sloped = BOTH(MORE(rise * g, wide(0.5 * apart)), LESS(rise * g, wide(2.0 * apart)));
+        wide mean = sum * (1.0 / real(2 * pairs));
+        // f was 0 at this place by the step before: after a short one, that is one point more
+        yes known = AT_MOST(fabs(step), wide(0.25 * clear));
+        wide weight = CHOOSE(known, wide(real(2 * pairs) / real(2 * pairs + 1)), wide(1.0));
         wide secant = step / (mean - f);
         g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
-        step = -mean * g;
+        step = -mean * g * weight;
         next = next + step;
         left = fabs(step) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
         left = CHOOSE(MORE(fabs(step), wide(0.25 * clear)), left, wide(0.0));  // a step among rounding errors
@@ -211,8 +228,9 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         seen = EITHER(seen, CHOOSE(seen_before, behind, NOT(behind)));
     }
     Refined result;
-    result.t = clamp(next, lo, hi);
-    result.good = BOTH(BOTH(seen, short_step), AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
+    // the signs of single values, which made [lo, hi], are less certain than the mean
+    result.t = clamp(next, max(lo - longest, a), min(hi + longest, b));
+    result.good = BOTH(BOTH(BOTH(seen, sloped), short_step), AT_MOST(left, wide(FIRST_PAIRS > 0 ? tolerance : longest)));
     result.evaluations = evaluations;
     return result;
 }

@@ -19,7 +19,8 @@ A frame takes four stages, and nothing comes back to the host between them:
    there) or open. A tile whose roots lie at too many depths for one piece is tried once more with nodes in planes that
    lean as the surface does (LEANS).
 2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides: a
-   few steps, and one by the mean of f over PAIRS pairs of points, as in bernstein.
+   few steps, and one by the mean of f over FIRST_PAIRS pairs of points, as in bernstein. Where f at these is far
+   from a line, the mean is over PAIRS.
 3. packets: the open tiles' pixels, 4 by 4 together. Each has its own fit and verdict, and only the halving is shared.
 4. rest: what is still open, and roots whose last step leaves more than TOLERANCE, are cast by bernstein's kernel from
    the depth on that is known to be empty.
@@ -65,6 +66,9 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
     the same up to 16 times                                 the octic's packets: 9 to 17 ms                     no
     a piece that ends where the roots of all nodes are      1 % fewer open pixels, and no faster                no
       passed, before a tile is open
+    the frame before as a start: pieces of single tiles,    torus 1.06, sextic 0.99 times as fast after 6       no
+      and open tiles cut at once (512x512)                  degrees; 1.06 and 1.05 if nothing moves
+    tiles of 32 first, for four samples a pixel             sextic 14.2 to 14.4 ms, decic 45.5 to 44.3          no
     planes that lean as the surface does                    16-ball: 22 to 18 ms; the octic's open pixels: 28   yes
       to 21 % and no faster
 """
@@ -124,12 +128,27 @@ METHOD = Method(
         ),
         Parameter("STEP", 2.0**-18, "longest last step but one of the refinement, over the domain's diameter"),
         Parameter(
-            "PAIRS",
+            "FIRST_PAIRS",
             2,
             "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step",
         ),
         Parameter(
-            "APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"
+            "FIRST_APART",
+            4.0,
+            "distance between neighbouring samples of FIRST_PAIRS, in unit roundoffs of the domain's diameter",
+        ),
+        Parameter(
+            "UNCERTAIN",
+            8.0,
+            "how far f at FIRST_PAIRS may be from a line, in unit roundoffs of the domain's diameter, before the mean is "
+            "over PAIRS",
+        ),
+        Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
+        Parameter(
+            "APART",
+            2.0,
+            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter, or of the length "
+            "in the domain of a ray that is cast by itself",
         ),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),

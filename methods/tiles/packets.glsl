@@ -147,7 +147,8 @@ void cast_packets(Work work, Frame frame) {
             left = EITHER(left, again);
         }
         answer_block(work, i0, j0, rays.shift, t, hit, 2 * LEVELS, evaluations);
-        open_from = open_from - slack;
+        // the sign of f where the next stage begins has to be certain, so it begins a piece before the open one
+        open_from = open_from - CHOOSE(opened, wide(slack + open_width), wide(slack));
         if (any_lane(left)) leave_pixels(work, i0, j0, left, open_from);
     }
     add_to(work, 4 * work.level + 2, all_fits);

@@ -55,8 +55,8 @@ against the oracle: no clear ray is wrong, of this method, interval_march, ray_m
 
 interval_adaptive answers for pixels, and is off by up to 0.05 to 0.25; 4 to 107 of its rays are wrong. sphere_tracing
 is about five times as fast on distance functions, and off by up to 2e-3. The largest errors here are those of pixels
-that interval_march casts, 7e-5 to 6e-4; those of all others are below 1e-5, which is about STEP. Frames of 1024x1024 have
-not been timed on a quiet machine.
+that interval_march casts, 7e-5 to 6e-4; those of all others are below 1e-5, which is about STEP. Frames of 1024x1024
+have not been timed on a quiet machine.
 
 **What was tried** Processor time of opencl:intel at 512x512, float32, in ms, the least of seven frames; the first
 figure is the gyroid's, the second that of torus_distance. Variants of one line were cast by turns.

@@ -5,13 +5,14 @@ from __future__ import annotations
 import contextlib
 import gc
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from harness.contract import BASELINE, FirsthitError, suggestion
-from harness.results import plan_file, study_file
+from harness.results import archive, plan_file, study_file
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flattener
 from harness.results.sealed import problem
 from harness.results.store import read_row
@@ -36,6 +37,16 @@ def load(folder: Path) -> Run:
         except FirsthitError as error:
             missing.append(Unreadable(name, str(error)))
     return collect.together(folder, plan, runs, missing)
+
+
+@contextlib.contextmanager
+def opened(run: Path) -> Iterator[Run]:
+    """Read a run from its folder or from an archive of it, whose files are there while the block runs.
+
+    Raises FirsthitError as `load` does, and where an archive cannot be unpacked.
+    """
+    with archive.opened(run) as folder:
+        yield replace(load(folder), folder=run)
 
 
 def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
@@ -116,12 +127,26 @@ def load_one(folder: Path, plan: Plan) -> Run:
         except (OSError, ValueError) as error:
             unreadable.append(Unreadable(f"studies/{path.name}", f"{problem(error)} ({name})"))
     if not rows and not families and not studies:
+        if plan.shard and not plan.slots:
+            raise FirsthitError(f"{folder} is{plan.part.replace(',', '')} of {plan.config}, which has no cell in it")
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
     made = (export.frame(schema, found) for schema, found in ((SCHEMA, rows), (FAMILY, families)))
-    views, ladders = (labels.labelled(frame, plan.methods) for frame in made)
+    views, ladders = (labels.labelled(_as_told(frame, plan), plan.methods) for frame in made)
     broken, missing = tuple(unreadable), tuple(not_run)
     return Run(folder, plan, views, ladders, export.frame(RUNG, rungs), broken, missing, studies, {plan.name: folder})
+
+
+def _as_told(frame: pd.DataFrame, plan: Plan) -> pd.DataFrame:
+    """Return rows with their devices as the plan of a merged run tells them, in the slots too."""
+    if not plan.told:
+        return frame
+    told = [plan.told.get(key, device) for key, device in zip(frame["key"], frame["device"], strict=True)]
+    of = zip(frame["slot"], frame["device"], told, strict=True)
+    slots = [slot.removesuffix(device) + new for slot, device, new in of]
+    return frame.assign(
+        device=pd.Series(told, frame.index, dtype=object), slot=pd.Series(slots, frame.index, dtype=object)
+    )
 
 
 def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
@@ -147,11 +172,15 @@ def plan_of(folder: Path) -> Plan:
     except (OSError, ValueError) as error:
         raise FirsthitError(f"cannot read {path}: {problem(error)}; run the config again to rewrite it") from error
     families: dict[str, dict[str, Any]] = told.get("family_facts", {})
+    listed = (*told["cells"], *told.get("families", ()))
     return Plan(
         **{name: told[name] for name in _TEXTS},
         environment=told["environment"],
         devices=tuple(told["devices"]),
-        slots={cell["key"]: cell["slot"] for cell in (*told["cells"], *told.get("families", ()))},
+        slots={cell["key"]: cell["slot"] for cell in listed},
+        told={cell["key"]: cell["device"] for cell in listed if "device" in cell},
+        shard=(told["shard"]["number"], told["shard"]["of"]) if "shard" in told else None,
+        merged=tuple(told.get("merged", ())),
         facts={name: Facts(**{part: one[part] for part in _FACTS}) for name, one in families.items()},
         studies={study["study"]: study["key"] for study in told.get("studies", ())},
         methods=told.get("methods", {}),

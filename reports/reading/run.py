@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +42,14 @@ class Plan:
     include: tuple[str, ...]  # run folders beside this one that its report collects
     baseline: str = BASELINE  # the method or variant that speed-ups are over
     focus: str = ""  # the method or variant that the report is about; "" for none
+    shard: tuple[int, int] | None = None  # which of how many shards of the config; None for the whole
+    told: Mapping[str, str] = field(default_factory=dict)  # of a merged run: key → device, where the row names another
+    merged: tuple[Mapping[str, Any], ...] = ()  # the runs that went into it (plan_file.Merged)
+
+    @property
+    def part(self) -> str:
+        """Say which shard of its config a run is, ", shard 3 of 16", or "" of a whole one."""
+        return f", shard {self.shard[0]} of {self.shard[1]}" if self.shard else ""
 
     @property
     def peaks(self) -> dict[str, float]:

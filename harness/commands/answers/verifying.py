@@ -64,6 +64,9 @@ class Verify:
 
     rows: how many rows there are
     failing_rows: how many of them do not hold
+    certifiable: how many are of rays whose truth can be asked for, or of a family of hard rays
+    certified: of how many of these the truth was certified anew
+    seed: what chose these
     missing: cells that a plan names and that have no row
     checks: what was checked
     failing: every value that does not hold
@@ -71,6 +74,9 @@ class Verify:
 
     rows: int
     failing_rows: int
+    certifiable: int
+    certified: int
+    seed: int
     missing: int
     checks: Sequence[CheckFacts]
     failing: Sequence[FailingFacts]
@@ -92,4 +98,5 @@ def answer(found: Verified) -> Verify:
         FailingFacts(str(one.file), one.slot, one.check, one.wrong.figure, str(one.wrong.stored), str(one.wrong.found))
         for one in found.failing
     ]
-    return Verify(found.rows, len({one.file for one in failing}), found.missing, checks, failing)
+    sampled = found.certifiable, found.sampled, found.seed
+    return Verify(found.rows, len({one.file for one in failing}), *sampled, found.missing, checks, failing)

@@ -78,11 +78,14 @@ class TileMethods(ShotKind):
 def bounds_for(isolate: Program, surface: Surface) -> NDArray[np.float64]:
     """Return the bounds of the surface's fourth derivatives that the programs of a frame read; [0] if they read none.
 
-    Raises FirsthitError if the programs read bounds of the surface that there are none of.
+    Raises FirsthitError if the programs read bounds of the surface that there are none of, or of another grid.
     """
-    from harness.kernels.fourths import fourth_bounds
+    from harness.kernels.fourths import GRID, fourth_pyramid
 
-    return fourth_bounds(surface) if plan_of(isolate).grid else np.zeros(0)
+    grid = plan_of(isolate).grid
+    if grid not in (0, GRID):
+        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and here {GRID} are made")
+    return fourth_pyramid(surface) if grid else np.zeros(0)
 
 
 def frame_of(
@@ -95,13 +98,13 @@ def frame_of(
     """Return the frame of size x size pixels by the programs of `stages`, which are isolate, finish, packets and rest.
 
     `camera` is float32[12]. `bounds` are those that the programs' own revision makes; None for programs of this one.
-    Raises FirsthitError as `bounds_for` does, and if the bounds are not of as many cells as the programs read.
+    Raises FirsthitError as `bounds_for` does, and if the programs read bounds and there are none.
     """
     isolate, finish, packets, rest = stages
     grid = plan_of(isolate).grid
     handed = bounds_for(isolate, surface) if bounds is None else bounds
-    if len(handed) != grid:
-        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and {len(handed)} are handed to them")
+    if grid and not handed.size:
+        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and none are handed to them")
     return TileFrame((isolate, finish, packets, rest), camera, size, handed)
 
 

@@ -14,7 +14,21 @@ PROBLEM_LIMIT = 120  # characters of why a device cannot be used
 
 def blocks(plan: Plan) -> tuple[Block, ...]:
     """Make a line for each device, and a sentence on the machine and the software."""
-    return (_devices(plan), Text(_made_with(plan)))
+    return (_devices(plan), Text(_made_with(plan)), *([_merged(plan)] if plan.merged else []))
+
+
+def _merged(plan: Plan) -> Table:
+    """Make a line for each run that went into a merged one."""
+    body = []
+    for one in plan.merged:
+        shard = f"{one['shard']['number']} of {one['shard']['of']}" if "shard" in one else None
+        commit = f"{one.get('commit') or wording.NONE}{' with uncommitted changes' if one.get('dirty') else ''}"
+        body.append((one["run"], one["machine"], shard, commit, one["created"][:16].replace("T", " ")))
+    columns = (Column("run", stretch=1), Column("machine"), Column("shard"), Column("commit"), Column("made"))
+    kept = [i for i in range(len(columns)) if any(not wording.absent(row[i]) for row in body)]
+    lines = [tuple(row[i] for i in kept) for row in body]
+    caption = "Their times are compared within a machine alone."
+    return Table(tuple(columns[i] for i in kept), lines, "Runs that were merged.", caption)
 
 
 def details(plan: Plan) -> tuple[Block, ...]:

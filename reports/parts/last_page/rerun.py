@@ -21,7 +21,11 @@ def blocks(material: Material) -> tuple[Block, ...]:
     plan = material.run.plan
     commit = str(plan.environment.get("commit") or "")
     lines = [f"git checkout {commit}"] if commit else []
-    lines += ["make .venv/ready", plan.command, f"firsthit report {shlex.quote(_folder(plan))}"]
+    lines.append("make .venv/ready")
+    for one in plan.merged:
+        lines += [f"# on {' '.join(str(one['machine']).split())}", str(one["command"])]
+    reports = plan.command.startswith("firsthit report ")  # it joins runs by itself
+    lines += [plan.command, *([] if reports else [f"firsthit report {shlex.quote(_folder(plan))}"])]
     told = (
         "Finished cells are reused, so that the run goes on where it stopped; --force runs all "
         "again. Times differ from machine to machine; answers on one device do not."
@@ -32,7 +36,7 @@ def blocks(material: Material) -> tuple[Block, ...]:
         else ""
     )
     texts = filter(None, (told, dirty, _plugins(material), _config(plan)))
-    return (Code("\n".join(map(folded, lines))), Text(" ".join(texts)))
+    return (Code("\n".join(line if line[0] == "#" else folded(line) for line in lines)), Text(" ".join(texts)))
 
 
 def folded(command: str) -> str:
@@ -62,7 +66,9 @@ def _words(command: str) -> list[str]:
 
 def _folder(plan: Plan) -> str:
     """Return the folder of the run that the plan's command makes: below the folder after --runs, if it names one."""
-    words = _words(plan.command.replace("--runs=", "--runs "))
+    words = _words(plan.command.replace("--runs=", "--runs ").replace("--output", "-o"))
+    if plan.merged and "-o" in words[:-1]:
+        return words[words.index("-o") + 1]
     runs = words[words.index("--runs") + 1] if "--runs" in words[:-1] else "runs"
     return str(PurePath(runs) / plan.name)
 
