@@ -131,6 +131,7 @@ GENERATED: dict[str, tuple[str, ...]] = {
     "surface_distance_normal": (),
     "surface_range": (),
     "surface_range_along": ("surface_range",),
+    "surface_gradient_range": ("surface_range",),
     "surface_coefficients_along": (),
     "surface_polynomial_along": (),
     "surface_along": (),

@@ -82,6 +82,16 @@ def test_tiles_conform_on_a_dense_polynomial_as_small_frames():
     hold(found)
 
 
+@pytest.mark.parametrize("k", range(len(DEVICES)))
+def test_tiles_by_intervals_conform_where_f_is_no_polynomial(k):
+    bench, surface = bench_on(opened(DEVICES[k])), surfaces.get("blinn_blob")
+    found = list(
+        examine(bench, plugin_for("tiles_interval", surface, "float32", bench), views_case(surface), "float32")
+    )
+    assert any(finding.check == "no_missed_root" and finding.holds for finding in found)
+    hold(found)
+
+
 def _other_pairs() -> list[tuple[str, str]]:
     others = [name for name in surfaces.names() if name not in conformance.TYPICAL]
     plugins = find_methods().plugins

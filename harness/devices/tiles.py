@@ -8,7 +8,7 @@ its work from counters on the device until there is none.
     clear           isolate  sets the counters to 0
     isolate, level  isolate  tiles of a level: each is empty, has a single root, or is left open
     finish, level   finish   pixels of the level's tiles with a single root
-    packets         packets  pixels of the last level's open tiles, 4 x 4 at a time
+    packets         packets  pixels of the last level's open tiles
     rest            rest     pixels that no other stage has answered, each by itself
 """
 
@@ -123,7 +123,9 @@ def tile_steps(device: Device, plans: Sequence[Plan], built: Sequence[Built], si
     last = plan.sides[-1]
     steps = [replace(step(isolate, plan.side, -1, 1), grid=(COUNTS, 1))]
     steps += [step(isolate, side, level, count) for level, side, count in by_level]
-    steps += [step(finish, side, level, min(plan.parts, side**2 // 16) * count) for level, side, count in by_level]
+    steps += [
+        step(finish, side, level, max(1, min(plan.parts, side**2 // 16)) * count) for level, side, count in by_level
+    ]
     if not plan.opened:
         steps.append(step(packets, last, plan.levels, tiles(size, last)))
     cast = step(rest, last, plan.levels + 1, size * size)

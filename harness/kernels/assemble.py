@@ -75,10 +75,13 @@ def method_program(
     if ROOMS[entry] != "rays" and origin != "nearest":
         raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
     if entry in STAGES:
+        from harness.kernels.tile_ranges import NEED, ranged_program
         from harness.kernels.tiles import stage_program
 
         stage, listed = STAGES[entry]
         stated = method, folder, variant, surface, precision, language
+        if NEED in method.needs:
+            return ranged_program(*stated, stage, listed, METHODS / method.rest)
         return stage_program(*stated, stage, listed, METHODS / method.rest, lanes or lanes_on(language, None))
     listed = entry == "rays" and narrowed is None
     needs = (*method.needs, "surface_value") if listed else method.needs

@@ -16,6 +16,9 @@ FUNCTIONS holds the names that a method may need, and `Method.needs` those that 
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
                               f in the box: without 0 only if f has no root there, see harness/kernels/ranges.py
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
+    surface_gradient_range    GradientRange surface_gradient_range(Interval x, Interval y, Interval z)
+                              surface_range of the box, and intervals that hold f's derivatives there by x, y and z; the
+                              whole line where they are not known, see harness/kernels/gradient_ranges.py
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, by exact expansion, for degrees 1 to 4
     surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1,
@@ -40,6 +43,7 @@ from pathlib import Path
 
 from harness import ROOT
 from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
+from harness.kernels.gradient_ranges import gradient_function
 from harness.kernels.printing import Language, RealPrinter, function_text, functions_used, operations_used, table
 from harness.kernels.ranges import range_function, range_operations
 from harness.kernels.reach import safe_reach
@@ -114,6 +118,7 @@ def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple
     """
     wanted = _closure(None, needs)
     interval = ("interval",) if "surface_range" in wanted else ()
+    interval += ("interval_slopes",) if "surface_gradient_range" in wanted else ()
     dual = ("dual",) if "surface_dual_along" in wanted else ()
     fitted = "surface_polynomial_along" in wanted and not (surface is not None and expands(surface))
     return interval + dual + (("dual", "fit", "polynomial") if fitted else ())
@@ -322,6 +327,12 @@ class _Writer:
             f"return surface_range({axes[0]},",
             *(f"                     {a}" for a in (axes[1] + ",", axes[2] + ");")),
         )
+
+    def surface_gradient_range(self) -> str:
+        reach = None if self.parameters else safe_reach(self.surface, self.precision)
+        text, count = gradient_function(self.exact, self.parameters, reach, self.precision, self.language)
+        self._add("interval", count)
+        return text
 
     def surface_coefficients_along(self) -> str:
         """Return the text of the function. Raises FirsthitError for a surface whose degree is not expanded."""

@@ -9,7 +9,7 @@ values, f is not bounded again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from harness.contract import Language, Precision
@@ -17,8 +17,9 @@ from harness.kernels.printing import IntervalPrinter, RealPrinter, function_text
 from surfaces.tape import Op, Tape
 
 SIDED = frozenset({"floor", "below", "atan2"})  # operations that jump by themselves
-_PARAMETERS = "Interval x, Interval y, Interval z"
+PARAMETERS = "Interval x, Interval y, Interval z"
 MOST_OPEN = 3
+WITHIN_REACH = "make_interval(safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY)"
 _BY_SIDES = """
 // Returns an interval that holds f in a box. If f jumps there from one sign to the other, and has no root on any side,
 // it is that of one side. Bit k of `sides` says which value the jump number k takes; -1 stands for both values of all.
@@ -61,6 +62,18 @@ def range_operations(tape: Tape) -> int:
     return 2 * count if SIDED & set(operations_used(tape)) else count
 
 
+def guarded_inputs(used: Iterable[str]) -> list[str]:
+    """Return the statements that make the whole line of inputs with an end that is not finite; `used` names them."""
+    return [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used]
+
+
+def reach_test(used: Iterable[str], reach: float, precision: Precision, language: Language) -> list[str]:
+    """Return the statements that set `safe` where the inputs named in `used` are a box in which nothing overflows."""
+    limit = RealPrinter({}, precision, language).literal(Fraction(reach))
+    ends = " + ".join(f"fabs({axis}.{end})" for axis in used for end in ("lo", "hi"))
+    return [f"PRECISE real reach = {ends};", f"bool safe = reach <= {limit};"]
+
+
 def range_function(
     tape: Tape, parameters: Mapping[str, str], reach: float | None, precision: Precision, language: Language
 ) -> str:
@@ -77,18 +90,12 @@ def range_function(
     )
     lines, (value,) = printer.body(tape)
     if reach is None or not used:
-        lines = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used] + lines
+        lines = guarded_inputs(used) + lines
     else:
-        limit = RealPrinter({}, precision, language).literal(Fraction(reach))
-        lines = [
-            "PRECISE real reach = " + " + ".join(f"fabs({axis}.{end})" for axis in used for end in ("lo", "hi")) + ";",
-            *lines,
-            f"Interval value = {value};",
-            f"bool safe = reach <= {limit};",
-        ]
-        value = "make_interval(safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY)"
+        lines = [*reach_test(used, reach, precision, language), *lines, f"Interval value = {value};"]
+        value = WITHIN_REACH
     if not sided:
-        return function_text(f"Interval surface_range({_PARAMETERS})", lines, f"return {value};")
+        return function_text(f"Interval surface_range({PARAMETERS})", lines, f"return {value};")
     last = ["Sided sided;", f"sided.range = {value};", "sided.open = open;", "return sided;"]
-    one = function_text(f"Sided range_of_sides({_PARAMETERS}, int sides)", ["int open = 0;", *lines], *last)
+    one = function_text(f"Sided range_of_sides({PARAMETERS}, int sides)", ["int open = 0;", *lines], *last)
     return one + "\n" + _BY_SIDES

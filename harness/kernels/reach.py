@@ -27,8 +27,6 @@ def safe_reach(surface: Surface, precision: Precision) -> float | None:
     The domain's own box is below it. Returns None if that is not proved: the formula has a division, logarithm or
     tangent of its variables, a root of what may be negative, or a value that may be too large.
     """
-    import flint
-
     tape = tape_of(surface)
     if not _is_safe(tape):
         return None
@@ -37,9 +35,16 @@ def safe_reach(surface: Surface, precision: Precision) -> float | None:
     ends = [max(abs(corner[axis]) for corner in corners) for axis in range(3)]
     farthest = sum(ends) + (0.0 if isinstance(domain, Box) else 3.0 * domain.radius)
     reach = 2.0 ** math.ceil(math.log2(MARGIN * 2.0 * farthest))
+    return reach if all(size < LARGEST[precision] for size in sizes_within(tape, reach)) else None
+
+
+def sizes_within(tape: Tape, reach: float) -> list[float]:
+    """Return a bound of the magnitude of each operation's value over boxes within reach; it may be infinite or NaN."""
+    import flint
+
     box = dict.fromkeys("xyz", flint.arb(0, reach))
     values = walk(Tape(tape.ops, tuple(range(len(tape.ops)))), Balls(), box)
-    return reach if all(abs(value) < LARGEST[precision] for value in values) else None
+    return [1.01 * float(abs(value).upper()) for value in values]
 
 
 def _is_safe(tape: Tape) -> bool:

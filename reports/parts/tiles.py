@@ -20,7 +20,8 @@ MOST_PANELS = 6
 MEANING = (
     "Rays of a tile are isolated together. A tile is empty, or all of its rays have their first root in one piece of "
     "depth, where each is refined by itself (single), or it is left open. The numbers are the pixels a side of the "
-    "tiles. Pixels of open tiles are cast in packets of 4 by 4, and those that packets leave are cast alone (rest). "
+    "tiles. Pixels of open tiles are cast in packets of 4 by 4, or each as a tile of its own (packets), and those that "
+    "are left are cast alone (rest). "
     "The more pixels the first stages answer, the more work is shared."
 )
 CAPTION = "Which stage answered each pixel: dark, empty tiles; bright, packets and rays cast alone."
