@@ -65,7 +65,7 @@ figure is the gyroid's, the second that of torus_distance. Variants of one line 
     ------------------------------------------------------  --------------------------------------------------  ----
     a tile is single only where all its rays have entered   of the gyroid's pixels 0.3 % are cast by            yes
       the domain before their roots                         interval_march, in place of 2.1 %
-    a pixel whose longer piece is not monotone is halved    packets 31 / 5.3 to 70 / 20, the rest                no
+    a pixel whose longer piece is not monotone is halved    packets 31 / 5.3 to 70 / 20, the rest               no
       again before it is open                               40 / 2.1 to 27 / 1.2
     the same with PIECES = 2048 in place of 256             509 / 122, in place of 134 / 30                     no
     tiles down to 2 by 2 pixels, with that halving          125 / 28, in place of 105 / 17                      no
