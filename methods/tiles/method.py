@@ -55,7 +55,8 @@ kernel before bounds were looked up in coarser tables; since then frames take 0.
 (interleaved on a busy machine: 0.85 for tangle to 1.01 for clebsch), and the quiet run has not been repeated. Whole
 frames of nine surfaces in three views: the 99.9th percentile of the errors is 0.67 to 1.03 times that of bernstein; the
 largest error is above bernstein's in about half of the views, nearly always of a pixel that is cast by itself (`python
--m tests.benchmarks.tile_errors`). The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on these surfaces in this view.
+-m tests.benchmarks.tile_errors`). The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on these surfaces in this
+view.
 Other devices, and frames of other sizes (configs/tiles.toml), have not been measured on a quiet machine.
 
 **What was tried** opencl:intel, processor time at 1024x1024, float32, mostly single runs on a busy machine:
