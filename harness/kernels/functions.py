@@ -117,7 +117,7 @@ def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple
     Given the surface, those that only other surfaces need are left out. Raises FirsthitError for an unknown name.
     """
     wanted = _closure(None, needs)
-    interval = ("interval",) if "surface_range" in wanted else ()
+    interval: tuple[str, ...] = ("interval",) if "surface_range" in wanted else ()
     interval += ("interval_slopes",) if "surface_gradient_range" in wanted else ()
     dual = ("dual",) if "surface_dual_along" in wanted else ()
     fitted = "surface_polynomial_along" in wanted and not (surface is not None and expands(surface))

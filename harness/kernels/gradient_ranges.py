@@ -328,7 +328,7 @@ class GradientPrinter(IntervalPrinter):
 def _raised(size: float, power: float) -> float:
     """Return a power of a bound, infinity where that is past the range of floats."""
     try:
-        return size**power
+        return float(size**power)
     except OverflowError:
         return math.inf
 
