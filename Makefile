@@ -53,7 +53,7 @@ check: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/firsthit compile
+	$(BIN)/firsthit compile --together
 
 format: $(READY)
 	$(BIN)/ruff format .

@@ -1,5 +1,6 @@
 """What a person types, and what comes back when it is wrong: one line that says what to do, no half-written file."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -332,6 +333,14 @@ def test_compile_is_on_the_devices_that_are_named(capsys):
     assert code == 0 and "programs compiled on 1 device, 0 failed" in out
     assert [line.partition(": ")[0] for line in out.splitlines()[:-1]] == [name]
     assert told(capsys, "compile", "--method", "ray_march", "--device", "opencl:none")[0] == 3
+
+
+def test_devices_that_compile_at_once_compile_what_they_compile_in_turns(capsys):
+    asked = ("compile", "--method", "null", "--surface", "sphere")
+    turns, once = (told(capsys, *asked, *more) for more in ((), ("--together",)))
+    assert turns[0] == once[0] == 0
+    counted = [re.findall(r"^(\S+): (\d+) program", out, re.MULTILINE) for _, out, _ in (turns, once)]
+    assert counted[0] == counted[1] != []
 
 
 def test_a_plugin_that_cannot_be_imported_costs_only_itself(tmp_path, capsys):

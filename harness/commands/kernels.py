@@ -24,6 +24,8 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")
     parser.add_argument("--domain", metavar="D", default="sphere:1.5", help="its domain (default: sphere:1.5)")
     parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
+    help_ = "compile for all devices at once: sooner done, but each compiler is slowed by the others"
+    parser.add_argument("--together", action="store_true", help=help_)
     add_timeout(parser)
     parser.set_defaults(run=_compile)
 
@@ -37,7 +39,7 @@ def _compile(options: argparse.Namespace) -> int:
     chosen += [] if options.formula is None else [surfaces.from_formula(options.formula, options.domain)]
     usable = usable_devices(options.device or ())
     with console.working() as tell:
-        done = compile_all(plugins, chosen, usable, tell, options.timeout)
+        done = compile_all(plugins, chosen, usable, tell, options.timeout, options.together)
     broken = [] if options.method else list(catalog.broken)
     for paragraph in mistakes(done.failed, "programs"):
         print(paragraph, file=sys.stderr)

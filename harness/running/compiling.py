@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from harness.contract import PRECISIONS, CellStatus, DeviceInfo, FirsthitError, Precision, Program, Surface
@@ -38,38 +40,78 @@ def compile_all(
     devices: Sequence[DeviceInfo],
     tell: Tell = lambda _: None,
     timeout: float = START_SECONDS,
+    together: bool = False,
 ) -> Compiled:
     """Compile every program of each method for each surface, device and precision that it accepts, at its defaults.
 
-    Each program is run once over one ray, for which it has `timeout` seconds. After one that does not end nothing more
-    of the method is tried on that device, since each further one would take as long. `tell` hears of each case.
+    Devices take turns or, if `together`, compile at once, and then each is slowed by the others. Each program is run
+    once over one ray, for which it has `timeout` seconds. After one that does not end nothing more of the method is
+    tried on that device, since each further one would take as long. `tell` hears of each case.
     """
-    executor = LocalExecutor(timeout)
-    done = Compiled({info.name: [] for info in devices})
-    hung: set[tuple[str, str]] = set()
-    cases = list(itertools.product(plugins, surfaces, devices, PRECISIONS))
+    cases = list(itertools.product(plugins, surfaces, PRECISIONS))
+    numbers, total = itertools.count(1), len(cases) * len(devices)
+
+    def told(case: str) -> None:
+        tell(f"compiling [{next(numbers)}/{total}] {case}")
+
+    each = [_OnDevice(info, timeout, told) for info in devices]
+    pool = ThreadPoolExecutor(max(1, len(devices)) if together else 1)
     try:
-        for number, (plugin, surface, info, precision) in enumerate(cases, 1):
-            method = plugin.method
-            tell(f"compiling [{number}/{len(cases)}] {method.name} {surface.name} {precision} {info.name}")
-            if (method.name, info.name) in hung:
-                done.left_out += 1
-                continue
-            try:
-                if _is_refused(plugin, surface, info, precision):
-                    continue
-                for entry, program in _programs(plugin, surface, info, precision).items():
-                    took = executor.build(info.name, program)
-                    done.built[info.name].append((took, f"{method.name} {surface.name} {precision} {entry}"))
-            except (CellError, FirsthitError) as error:
-                status = error.status if isinstance(error, CellError) else CellStatus.FAILED
-                of = method.name, f"{surface.name} {precision}", info.name, precision, surface.name
-                done.failed.append(Failure(*of, str(error), status))
-                if status is CellStatus.TIMEOUT:
-                    hung.add((method.name, info.name))
-    finally:
-        executor.close()
-    return done
+        for future in [pool.submit(one.compile, cases) for one in each]:
+            future.result()
+    finally:  # also where Ctrl-C ends it
+        for one in each:
+            one.stop()
+        pool.shutdown(cancel_futures=True)
+    failed = [failure for one in each for failure in one.failed]
+    return Compiled({one.info.name: one.built for one in each}, failed, sum(one.left_out for one in each))
+
+
+class _OnDevice:
+    """Compile cases for one device, in the order in which they are given."""
+
+    def __init__(self, info: DeviceInfo, timeout: float, tell: Tell) -> None:
+        self.info = info
+        self.built: list[tuple[float, str]] = []
+        self.failed: list[Failure] = []
+        self.left_out = 0
+        self._executor, self._tell = LocalExecutor(timeout), tell
+        self._stopped = threading.Event()
+
+    def compile(self, cases: Iterable[tuple[Plugin, Surface, Precision]]) -> None:
+        hung: set[str] = set()
+        try:
+            for plugin, surface, precision in cases:
+                if self._stopped.is_set():
+                    return
+                self._tell(f"{plugin.method.name} {surface.name} {precision} {self.info.name}")
+                if plugin.method.name in hung:
+                    self.left_out += 1
+                elif self._case(plugin, surface, precision) is CellStatus.TIMEOUT:
+                    hung.add(plugin.method.name)
+        finally:
+            self._executor.close()
+
+    def stop(self) -> None:
+        """Begin no further case, and end the one under way, from any thread."""
+        self._stopped.set()
+        self._executor.kill()
+
+    def _case(self, plugin: Plugin, surface: Surface, precision: Precision) -> CellStatus | None:
+        """Compile the programs of a case; return how it ended where it failed."""
+        name, method = self.info.name, plugin.method.name
+        try:
+            if _is_refused(plugin, surface, self.info, precision):
+                return None
+            for entry, program in _programs(plugin, surface, self.info, precision).items():
+                took = self._executor.build(name, program)
+                self.built.append((took, f"{method} {surface.name} {precision} {entry}"))
+        except (CellError, FirsthitError) as error:
+            status = error.status if isinstance(error, CellError) else CellStatus.FAILED
+            of = method, f"{surface.name} {precision}", name, precision, surface.name
+            self.failed.append(Failure(*of, str(error), status))
+            return status
+        return None
 
 
 def _is_refused(plugin: Plugin, surface: Surface, info: DeviceInfo, precision: Precision) -> bool:
