@@ -47,9 +47,9 @@ class ClusterExecutor:
         self._released: list[str] = []
         self._gave_up = False
         self._moves = 0
-        self.where: dict[str, Any] = (
-            {"machine": place.machine} if place else {}
-        )  # what rows say of where steps run; it changes with the place
+        self._came = False  # to a place that has not answered yet
+        # what rows say of where steps run; it changes with the place
+        self.where: dict[str, Any] = {"machine": place.machine} if place else {}
 
     @property
     def moves(self) -> int:
@@ -116,10 +116,13 @@ class ClusterExecutor:
                 released, self._released = self._released, []
                 try:
                     plain = hold.place.device if device == self._name else device
-                    return hold.step(operation, plain, arguments, released)
+                    answer = hold.step(operation, plain, arguments, released)
                 except Lost as error:
                     lost = str(error)
                     self._drop()
+                else:  # a place that was lost before it answered anything is no move
+                    self._moves, self._came = self._moves + self._came, False
+                    return answer
         raise CellError(CellStatus.CRASHED, f"{operation} lost its worker {LOSSES} times; the last time: {lost}")
 
     def _drop(self) -> None:
@@ -139,6 +142,6 @@ class ClusterExecutor:
             told = f"the worker of {self._name} was lost, and {waited}; `--retry failed` runs the cell again"
             raise CellError(CellStatus.FAILED, told)
         self._hold = self._held(place)
-        self._moves += 1
+        self._came = True
         self.where["machine"] = place.machine
         return self._hold
