@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from harness.hosting.process import cores as cores  # a software device has no more
+from harness.hosting.cores import cores as cores  # a software device has no more
 
 # How the names of variables begin that drivers and compilers read
 SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "GALLIUM_", "MESA_", "CUDA_", "__GL_")

@@ -66,11 +66,6 @@ def explained(exit_code: int) -> str:
     return f"ended with exit code {exit_code}"
 
 
-def cores() -> int | None:
-    """Count the processor's cores that this process may use; None where the system does not tell."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-
-
 def die_with_parent() -> None:
     """End this process when its parent ends, and before it where memory runs out; only Linux can do so."""
     if sys.platform == "linux":

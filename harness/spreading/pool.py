@@ -23,6 +23,7 @@ from typing import Any, TypeVar
 
 from harness import memory, spreading
 from harness.hosting import process
+from harness.hosting.cores import cores
 from harness.limits import JOBS
 from surfaces.model import FirsthitError
 
@@ -40,7 +41,7 @@ def usual_jobs() -> int:
     """Return how many workers this machine should have: one for each usable core, if its memory holds as many."""
     whole = memory.of_machine()
     fitting = math.inf if whole is None else memory.SHARE * whole / LEAST_MEMORY
-    return max(1, math.floor(min(process.cores() or 1, JOBS.high, fitting)))
+    return max(1, math.floor(min(cores() or 1, JOBS.high, fitting)))
 
 
 @contextlib.contextmanager
