@@ -62,6 +62,8 @@ class Casting:
 class Executor:
     """Takes samples of about a millisecond, and writes down what it does, up to the step of number `stop`."""
 
+    moves = 0  # it is always the same place
+
     def __init__(self, log, stop=None, ms=1.0):
         self.log, self.stop, self.ms = log, stop, ms
 
