@@ -247,7 +247,7 @@ def test_the_data_has_every_row_with_its_run_machine_and_commit(site):
     parquet, flat = pd.read_parquet(site / "data" / "results.parquet"), pd.read_csv(site / "data" / "results.csv")
     assert len(parquet) == len(flat) == 3 * 20 - 1
     assert set(parquet["run"]) == {"old", "new", "elsewhere"}
-    assert set(parquet["machine"]) == {"Processor A", "Processor B"}
+    assert set(parquet["processor"]) == {"Processor A", "Processor B"}
     assert set(flat["commit"]) == {"abc1234"}
 
 

@@ -47,7 +47,7 @@ def data(site: Site) -> dict[str, Any]:
             "kind": race.first.kind,
             "device": race.first.on,
             "precision": race.first.precision,
-            "machine": race.first.machine,
+            "machine": race.first.processor,
             "m": race.counted,
         }
         for race in site.cells
@@ -74,7 +74,7 @@ def _lead(site: Site) -> Html:
     surfaces = wording.plural(len({race.first.page for race in site.cells}), "surface")
     methods = wording.plural(len({m for race in site.cells for m in race.methods}), "method")
     devices = wording.plural(len({race.first.on for race in site.cells}), "device")
-    machines = wording.plural(frame["machine"].nunique(), "machine")
+    machines = wording.plural(frame["processor"].nunique(), "machine")
     runs = wording.plural(len(site.data.parts), "run")
     newest = max(part.plan.created for part in site.data.parts)[:10]
     return tag(
@@ -95,7 +95,7 @@ def _filters(site: Site) -> Html:
         ("kind", "Surfaces", kinds(site)),
         ("device", "Device", list(dict.fromkeys(row.on for row in places(site)))),
         ("precision", "Precision", sorted({row.precision for row in rows})),
-        ("machine", "Machine", sorted({row.machine for row in rows})),
+        ("machine", "Machine", sorted({row.processor for row in rows})),
     )
     levels = [tag("option", BOUNDS[name], value=name) for name, _ in LEVELS]
     every = [_choice("error", "Error bound", levels)]
@@ -218,7 +218,7 @@ def _winners(site: Site) -> Html:
             tag("section", tag("h3", kind, id=_kind_id(kind)), table(caption, heads, lines), data_kind=kind)
         )
     named = json.dumps(
-        [{"device": column.on, "precision": column.precision, "machine": column.machine} for column in columns]
+        [{"device": column.on, "precision": column.precision, "machine": column.processor} for column in columns]
     )
     lead = tag(
         "p",

@@ -56,8 +56,9 @@ class Part:
 class Gathered:
     """Hold all runs of a site.
 
-    frame: derive.derive's columns, those of `labels`, and `at` (the run's id), `machine`, `on` (the device, told apart
-        from those of other machines), `driver`, `created`, `kind` (the class of the surface), `page` (of the surface)
+    frame: derive.derive's columns, those of `labels`, and `at` (the run's id), `processor`, `on` (the device, told
+        apart from those of other machines), `driver`, `created`, `kind` (the class of the surface), `page` (of the
+        surface)
         and `scene_id`, which two rows share that were cast from the same view of the same surface
     methods: what the newest run that has a method stores of it, by name
     verdicts: the papers' claims that a run decides, with the title of that run
@@ -198,7 +199,7 @@ def _rows(frame: pd.DataFrame, run: str, machine: str, plan: Plan) -> pd.DataFra
         comparison=[f"{run}: {text}" for text in plain],
         run=run,
         at=run,
-        machine=machine,
+        processor=machine,
         driver=frame["device"].map(drivers),
         hardware=frame["device"].map(titles),
         created=plan.created,
@@ -226,7 +227,7 @@ def _class(row: Any) -> str:
 
 def _devices(frame: pd.DataFrame) -> pd.Series:
     """Return the name of each row's device, with hardware, driver and machine where others have its name too."""
-    told = ["device", "hardware", "driver", "machine"]
+    told = ["device", "hardware", "driver", "processor"]
     every = list(frame[told].fillna("").drop_duplicates().itertuples(index=False, name=None))
     named = dict(zip(every, told_apart(every), strict=True))
     return pd.Series([named[row] for row in frame[told].fillna("").itertuples(index=False, name=None)], frame.index)

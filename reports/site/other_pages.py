@@ -12,7 +12,10 @@ from reports.site.markup import Head, Html, Line, code, folded, join, link, tabl
 
 MORE: tuple[Field, ...] = (  # the columns that only a site's data has, beside those of results.csv
     Field(
-        "machine", "text", ("machine",), "the processor of the machine, and its system where two share the processor"
+        "processor",
+        "text",
+        ("processor",),
+        "the processor of the machine, and its system where two share the processor",
     ),
     Field("on", "text", ("on",), "the device, with hardware, driver and machine where others have its name too"),
     Field("driver", "text", ("driver",), "the device's driver"),

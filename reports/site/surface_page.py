@@ -148,7 +148,7 @@ def _source(site: Site, race: Race) -> Html:
         ("run", link(f"{UP}runs/{part.id}.html", part.plan.title or part.plan.name)),
         ("date", day(part.plan.created)),
         ("commit", part.commit),
-        ("machine", row.machine),
+        ("machine", row.processor),
         ("hardware", wording.text(row.hardware or None)),
         ("driver", wording.text(row.driver or None)),
     )
