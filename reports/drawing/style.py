@@ -52,7 +52,7 @@ _HOUSE: dict[str, Mark] = {
     "interval_adaptive": Mark(_BLUE, "*"),
     "bernstein": Mark(_GREEN, (3, 1, 0)),  # a star with three points
     "tiles": Mark(_PURPLE, "H"),
-    "tiles_interval": Mark(_PURPLE, "d"),
+    "tiles_interval": Mark(_PURPLE, (6, 1, 0)),  # a star with six points
     "polygon": Mark(_GREY, "8"),
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }
