@@ -25,6 +25,7 @@ from .kept_runs import SLOT, series
 from .test_machine import answered as object_of
 
 pytestmark = pytest.mark.usefixtures("devices_found_once")
+RESTS = {"tiles": "bernstein", "tiles_interval": "interval_march"}
 CONFIG = """title = "Cells to tell of"
 surfaces = ["sphere", "heart"]
 sizes = [16]
@@ -118,7 +119,7 @@ def test_methods_are_listed_with_knobs_claims_and_refusals(answered):
     assert {name: set(one["claims"]) for name, one in listed.items()} == {
         name: set(plugin.method.claims) for name, plugin in catalog.plugins.items()
     }
-    assert {name: one["rest"] for name, one in listed.items() if one["rest"]} == {"tiles": "bernstein"}
+    assert {name: one["rest"] for name, one in listed.items() if one["rest"]} == RESTS
     assert value["claims"].items() <= CLAIMS.items()
     assert listed["sphere_tracing"]["refuses"]["heart"].startswith("the surface states no distance")
     assert "torus" not in listed["sphere_tracing"]["refuses"] and not listed["newton"]["refuses"]
