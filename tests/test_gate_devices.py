@@ -187,7 +187,6 @@ def test_what_was_asked_does_not_depend_on_the_machine(tmp_path, monkeypatch):
     first = _planned(ASKED, tmp_path, "opengl:llvmpipe")
     before = _scenes(first)
     assert len(before) == 4
-    monkeypatch.setattr(identity, "processor", lambda: "another")
     monkeypatch.setattr(identity.sources, "packages", lambda: {"numpy": "9"})
     monkeypatch.setattr(host, "processor", lambda: "another")
     monkeypatch.setenv("LP_NATIVE_VECTOR_WIDTH", "128")

@@ -92,7 +92,9 @@ def test_an_empty_shard_says_so_and_leaves_a_run_that_merges(tmp_path: Path) -> 
     with_devices = running.Loaded(
         given.whole, given.parts, given.catalog, given.yes, FOUND, shard=given.shard, machine=given.machine
     )
-    found = running._run(with_devices, tmp_path / "runs", "firsthit run", False, False, running.Teller(heard.append))
+    found = running._run(
+        with_devices, tmp_path / "runs", "firsthit run", False, False, running.Teller(heard.append), None
+    )
     assert len(found.rows) == 0 and found.folder.name == "small.shard-16-of-16" and not found.unfinished
     assert "shard 16/16 has no cell of" in heard[0]
     told = plan_file.read(found.folder / "plan.json")
