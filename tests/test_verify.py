@@ -279,7 +279,7 @@ def test_processes_find_the_same(run: Path, tmp_path: Path, monkeypatch: pytest.
 
 
 def test_the_chance_to_find_a_row_is_told(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Of N rows of which n are drawn, none of k bad ones is drawn with the chance C(N - k, n) / C(N, n)."""
+    """Draws n of N rows: none of k bad ones is among them with the chance C(N - k, n) / C(N, n)."""
     for of, number in ((10_000, 100), (50, 3), (7, 6)):
         bad = verify.enough(of, number)
         none = [math.comb(of - k, number) / math.comb(of, number) for k in (bad - 1, bad)]
