@@ -97,7 +97,7 @@ def plan_of(program: Program) -> Plan:
     kept = told("OPEN_RECORD") + told("SINGLE_RECORD")
     shape = told("TILE"), told("LEVELS"), told("GRID")
     items = told("TILE_ITEMS"), told("TILE_GROUP"), told("TILE_TURNS"), told("FINISH_PARTS", otherwise="1")
-    return Plan(*shape, told("QUEUE_RECORD"), kept, *items, told("OPEN_TILES") == 1)
+    return Plan(*shape, told("QUEUE_RECORD"), kept, *items, told("OPEN_TILES", otherwise="0") == 1)
 
 
 def tiles(size: int, side: int) -> int:
