@@ -36,6 +36,7 @@ from harness.running.due import UNFINISHED, Again, begin, estimate_seconds, stud
 from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
 from harness.running.fastest import Tried, settled
+from harness.running.packing import Packing
 from harness.running.runner import Runner
 
 
@@ -275,6 +276,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             | _named(part, planned, loaded.catalog)
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
+        packing = Packing(store, hears)
         found, begun, old = begin(planned, store, again)
         if swept := [*old, *sweep_below(store.folder)]:
             hears.told(f"{store.folder}: removed {plural(len(swept), 'file')} that killed commands left")
@@ -282,7 +284,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             hears.wrong(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
-        told = hears.cell, hears.hears_builds
+        told = packing.cell, hears.hears_builds
         rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo, begun)
         if reason := cache.unwritten(store.truth):
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")

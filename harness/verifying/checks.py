@@ -11,8 +11,9 @@ from typing import Any
 
 from harness.contract import FirsthitError, Surface, Truth
 from harness.oracle import cache, first_hits
-from harness.results import plan_file, sealed
-from harness.results.store import Row, Store
+from harness.results import compaction, plan_file, sealed
+from harness.results.parts import KEY, TEXT, Part
+from harness.results.store import Row, Store, row_of
 from harness.verifying import answers, rungs, stated, times
 from harness.verifying import truth as truths
 from harness.verifying.model import CannotTell, Wrong
@@ -21,6 +22,7 @@ from harness.verifying.truth import Rays
 CHECKS = {
     "file": "it can be read, its checksum holds, and it does not contradict itself",
     "stated": "key, slot and columns follow from the identity",
+    "columns": "the columns of a Parquet part, which reports read, are those of its rows",
     "times": "times follow from their samples",
     "answers": "counts and errors follow from the answers ray by ray",
     "truth": "the truth certified anew is the one it was judged by",
@@ -111,24 +113,53 @@ def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]
     for slot, count in named.items():
         if count > 1:
             found.failing.append(Failing(folder / "plan.json", slot, "file", Wrong("cells", f"{count} cells", "one")))
+    for part in store.parts.all():
+        if not part.problem:
+            _columns(part, found)
     there = set()  # keys of rows, damaged ones too, which are no missing ones
-    for file in sorted((folder / "cells").glob("*.json")):
-        row = store.read(file.stem, older=True)
-        there.add(file.stem)
+    for name, why in store.parts.problems().items():
+        found.failing.append(Failing(folder / name, "", "file", Wrong("the part", why, "rows")))
+    for key in store.in_storage_order(store.keys()):
+        file, row = store.place(key), store.read(key, older=True)
+        there.add(key)
         if row is None:
-            why = store.unreadable.get(file.stem, "it is gone").removeprefix(f"{file} is ")
+            why = store.unreadable.get(key, "it is gone").removeprefix(f"{file} is ")
             found.rows += 1
-            found.failing.append(Failing(file, slots.get(file.stem, ""), "file", Wrong("the file", why, "a row")))
+            found.failing.append(Failing(file, slots.get(key, ""), "file", Wrong("the file", why, "a row")))
             continue
-        if slots.get(file.stem, row["slot"]) != row["slot"]:
-            wrong = Wrong("slot", row["slot"], slots[file.stem])
+        if slots.get(key, row["slot"]) != row["slot"]:
+            wrong = Wrong("slot", row["slot"], slots[key])
             found.failing.append(Failing(file, row["slot"], "file", wrong))
-        if sealed.is_sealed(file):
+        if sealed.has_seal(store.text(key)):
             found.checked["file"] += 1
         else:
             found.not_checked["file", "it has no checksum: a version before checksums wrote it, or it was changed"] += 1
         yield store, file, row
     found.missing += len(slots.keys() - there)
+
+
+def _columns(part: Part, found: Verified) -> None:
+    """Hold the columns of a part against the rows that it holds."""
+    for group in range(len(part.ends)):
+        told = compaction.group(part, group)
+        rows: list[tuple[Row, bytes]] = []
+        for key, text in zip(told.column(KEY).to_pylist(), told.column(TEXT).to_pylist(), strict=True):
+            try:
+                rows.append((row_of(text, key), text))
+            except (TypeError, ValueError):  # which is told of the row itself
+                rows.append(({"key": key}, b""))
+        made = compaction.table(rows).select([name for name in told.schema.names if name != TEXT])
+        found.checked["columns"] += len(rows)
+        for name in made.schema.names:
+            stored, right = told.column(name), made.column(name)
+            if stored.type == right.type and stored.equals(right):
+                continue
+            pairs = zip(rows, stored.to_pylist(), right.to_pylist(), strict=True)
+            for (row, text), one, other in pairs:
+                if one != other and text:
+                    found.failing.append(Failing(part.path, row["slot"], "columns", Wrong(name, one, other)))
+            if stored.type != right.type:
+                found.failing.append(Failing(part.path, "", "columns", Wrong(name, str(stored.type), str(right.type))))
 
 
 class _Truths:
