@@ -53,6 +53,22 @@ class Material:
         return choices.choices(self.listed)
 
     @cached_property
+    def _choice_by_surface(self) -> dict[str, Choice]:
+        return {one.surface: one for one in self.choices}
+
+    def choice_of(self, rows: pd.DataFrame) -> Choice | None:
+        """Return what to take of the finished rows `listed` of one scene and device; None where nothing was timed."""
+        if rows.empty:
+            return None
+        first = rows.iloc[0]
+        known = self._choice_by_surface.get(str(first["surface"]))
+        if known is not None:
+            told = known.rows[["comparison", "device"]].iloc[0]
+            if (told["comparison"], told["device"]) == (first["comparison"], first["device"]):
+                return known
+        return next(iter(choices.choices(rows)), None)
+
+    @cached_property
     def listed(self) -> pd.DataFrame:
         """Return the rows of `frame` for tables that list scenes one by one.
 

@@ -198,7 +198,7 @@ def test_surfaces_that_nobody_timed_have_maps_and_no_times(material: Material) -
 def test_a_card_says_what_is_hard_and_where_nothing_came_of_a_variant(material: Material) -> None:
     rows = material.listed[material.listed["surface"] == "torus"]
     own = shown.on_pages(rows)
-    card = cards.long_card(own, cards.chosen(own), material.shelf, rows)
+    card = cards.long_card(own, material.choice_of(own), material.shelf, rows)
     assert card is not None
     assert "What is hard: away from silhouettes the condition of a root reaches" in card.note
     assert "Degree 4: x^2 + y^2 + z^2 - 1 = 0, in a ball of radius 1.5." in card.note

@@ -32,8 +32,7 @@ def past_of(key: str, runs: Path) -> Past:
     row = store.read(whole, older=True)
     if row is None:
         raise FirsthitError(f"{store.unreadable[whole]}; `firsthit run` makes it again")
-    same = [other for other in store.rows() if other["slot"] == row["slot"]]
-    same.sort(key=lambda other: str(other["environment"]["started"]))
+    same = sorted(store.rows_of(row["slot"]), key=lambda other: str(other["environment"]["started"]))
     at = next(i for i, other in enumerate(same) if other["key"] == row["key"])
     return Past(row, same[at - 1] if at else None, same[at + 1] if at + 1 < len(same) else None)
 

@@ -269,6 +269,23 @@ class Parts:
                     seen.add(key)
                     yield key.decode()
 
+    def keys_with(self, column: str, value: str) -> Iterator[str]:
+        """Yield the keys of rows that have a text in a column, and of all of a part whose columns cannot be used.
+
+        Only these columns are read.
+        """
+        for part in self.all():
+            try:
+                if part.problem or column not in part.file.schema_arrow.names:
+                    raise ValueError("it has not this column, or one that is not to be used")
+                with damage():
+                    read = part.file.read(columns=[KEY, column])
+            except (OSError, ValueError):
+                yield from (key.decode() for key in part.keys.tolist())
+                continue
+            told = zip(read.column(KEY).to_pylist(), read.column(column).to_pylist(), strict=True)
+            yield from (key for key, found in told if found == value)
+
     def in_storage_order(self, keys: Iterable[str]) -> list[str]:
         """Return the keys in the order in which reading their rows is fast; those of no part come first."""
 

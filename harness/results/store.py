@@ -152,6 +152,12 @@ class Store:
         savez_atomically(self.folder / name, **arrays)
         return name
 
+    def rows_of(self, slot: str) -> Iterator[Row]:
+        """Yield the rows of a slot, as `rows` does. Of parts only the slots and these rows are read."""
+        for key in dict.fromkeys([*self.files(), *self.parts.keys_with("slot", slot)]):
+            if (row := self.read(key, older=True)) and row["slot"] == slot:
+                yield row
+
     def rows(self) -> Iterator[Row]:
         """Yield every row that can be read, current or stale; what an older version did not write is null."""
         for key in self.in_storage_order(self.keys()):

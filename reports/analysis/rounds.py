@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
-from operator import truediv
 from typing import Any
 
 import numpy as np
@@ -44,15 +43,21 @@ def times_over(row: Any, other: Any) -> float:
     return math.nan if paired is None else paired.median
 
 
-def is_no_faster(row: Any, other: Any) -> bool:
-    """Tell whether it is known without a test that `row` is not faster than `other` in the rounds that timed both.
+def medians_over(rows: pd.DataFrame, first: Any) -> NDArray[np.float64]:
+    """Return the median of each row's time over that of `first`, for rows with the same rounds of the same run.
 
-    Both had the same rounds of one run, and the median of `row`'s time over `other`'s is 1 or more.
+    Returns float64[n]; NaN for the others, of which nothing is told.
     """
-    if wording.absent(row.rounds) or row.rounds != other.rounds or not _in_one_run(row, other):
-        return False
-    over = sorted(map(truediv, row.samples_ms, other.samples_ms))
-    return bool(0.5 * (over[(len(over) - 1) // 2] + over[len(over) // 2]) >= 1.0)
+    found = np.full(len(rows), math.nan)
+    if wording.absent(first.session) or wording.absent(first.rounds) or not first.samples_ms:
+        return found
+    session, rounds, samples = (rows[name].to_numpy() for name in COLUMNS)
+    same = np.flatnonzero((session == first.session) & (rounds == first.rounds))
+    alike = [at for at in same.tolist() if samples[at]]
+    if alike:
+        own = np.array([samples[at] for at in alike], np.float64)
+        found[alike] = np.median(own / np.array(first.samples_ms, np.float64), axis=1)
+    return found
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from harness.results import ranks, timings
@@ -64,7 +65,27 @@ def best(rows: pd.DataFrame) -> Any:
     `rows` are in order of their medians, fastest first; there is at least one. A median is over all rounds of its row.
     So a row takes the place of the first where it is faster in the rounds that timed both.
     """
-    return _best(list(rows[_TOLD].itertuples()))
+    rows = rows[_TOLD]
+    first, behind = _at(rows, 0), 1
+    while behind < len(rows):
+        left = rows.iloc[behind:]
+        maybe = ~(rounds.medians_over(left, first) >= 1.0)  # the others are no faster, which takes no test
+        for at in (behind + np.flatnonzero(maybe)).tolist():
+            row = _at(rows, at)
+            if row.samples_ms and first.samples_ms and min(row.samples_ms) >= max(first.samples_ms):
+                continue  # it is faster in no round
+            paired = ratio(row, first)  # whatever the medians: they may be of other rounds
+            if paired is not None and verdict(paired) == FASTER:
+                first, behind = row, at + 1
+                break
+        else:
+            break
+    return first
+
+
+def _at(rows: pd.DataFrame, place: int) -> Any:
+    """Return the row at a place as a named tuple."""
+    return next(rows.iloc[place : place + 1].itertuples())
 
 
 def tied(rows: pd.DataFrame, first: Any) -> list[Any]:
@@ -72,38 +93,18 @@ def tied(rows: pd.DataFrame, first: Any) -> list[Any]:
 
     Of each method it is the fastest. `rows` are of one scene and device, in order of their medians.
     """
-    return [row.Index for row in _tied(list(rows[_TOLD].itertuples()), first)]
+    return [row.Index for row in _tied(rows, first)]
 
 
-def _best(rows: list[Any]) -> Any:
-    """Do what `best` does, for rows as named tuples."""
-    first = rows[0]
-    for row in rows[1:]:
-        if row.samples_ms and first.samples_ms and min(row.samples_ms) >= max(first.samples_ms):
-            continue  # it is faster in no round
-        if rounds.is_no_faster(row, first):
-            continue
-        paired = ratio(row, first)  # whatever the medians: they may be of other rounds
-        if paired is not None and verdict(paired) == FASTER:
-            first = row
-    return first
-
-
-def _tied(rows: list[Any], first: Any) -> list[Any]:
+def _tied(rows: pd.DataFrame, first: Any) -> list[Any]:
     """Return the rows that `tied` tells of, as named tuples."""
-    fastest_of: dict[str, Any] = {}
-    for row in rows:
-        if row.method != first.method:
-            fastest_of.setdefault(row.method, row)
-    return [row for row in fastest_of.values() if not is_slower(row, first)]
+    fastest_of = rows.loc[~rows["method"].duplicated() & (rows["method"] != first.method), _TOLD]
+    return [row for row in fastest_of.itertuples() if not is_slower(row, first)]
 
 
-def _groups(rows: pd.DataFrame) -> list[list[Any]]:
+def _groups(rows: pd.DataFrame) -> list[pd.DataFrame]:
     """Return the rows of each group, in their order."""
-    found: dict[tuple[Any, ...], list[Any]] = {}
-    for row in rows[[*derive.GROUP, *_TOLD]].itertuples():
-        found.setdefault((row.comparison, row.device, row.precision), []).append(row)
-    return list(found.values())
+    return [rows.take(places) for places in rows.groupby(derive.GROUP, sort=False).indices.values()]
 
 
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
@@ -116,7 +117,7 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
     right = rows[derive.all_right(rows)]
     groups = _groups(right)
-    firsts = [_best(own) for own in groups]
+    firsts = [best(own) for own in groups]
     found = pd.Series(
         [[str(row.variant) for row in _tied(own, first)] for own, first in zip(groups, firsts, strict=True)],
         [first.Index for first in firsts],
@@ -128,4 +129,4 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
 def fastest(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row of each group, whether it answers every ray rightly or not."""
     rows = derive.contenders(frame, [*derive.GROUP, *_TOLD])
-    return frame.loc[[_best(own).Index for own in _groups(rows)]]
+    return frame.loc[[best(own).Index for own in _groups(rows)]]

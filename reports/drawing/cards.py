@@ -22,11 +22,6 @@ WHOLE = 320  # and on a long one
 SMALL = 256  # pixels of a side of a short card's picture, which is 31 mm wide
 
 
-def chosen(rows: pd.DataFrame) -> Choice | None:
-    """Return what to take of the rows of one scene and device; None where nothing was timed."""
-    return next(iter(choices.choices(rows)), None)
-
-
 def winner(rows: pd.DataFrame, choice: Choice | None) -> Any | None:
     """Return the row of one scene and device that its picture is of, which has arrays; None without any.
 

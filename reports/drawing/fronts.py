@@ -25,6 +25,7 @@ TALL, LOW, MANY = 4.9, 3.9, 16  # inches: of a drawing, and of one of more rows,
 LETTER = 7.0  # points
 LONGEST = 32  # letters of a name
 MOST_NAMED = 24  # marks of one panel
+MOST_DRAWN = 400  # marks of one figure, about: of some thousand none could be told from another
 WRONG = "#9a4a00"  # the name of a variant that answers rays wrongly
 
 
@@ -43,8 +44,14 @@ def speed_against_error(
     figures = []
     for i, device in enumerate(dict.fromkeys(shown["device"])):
         own = shown[shown["device"] == device]
-        drawn, unnamed = _speed_against_error(own, marks, focus)
+        kept = _most_telling(own, focus)
+        drawn, unnamed = _speed_against_error(kept, marks, focus)
         more = f" {wording.plural(unnamed, 'mark')} have no room for a label; the table names all." if unnamed else ""
+        if len(kept) < len(own):
+            more += (
+                f" {len(kept):,} of {wording.plural(len(own), 'row')} are drawn: of each method and precision those on "
+                "the front, the fastest, and others spread evenly over its times."
+            )
         figures.append(
             Figure(
                 f"{name}-{i}",
@@ -55,6 +62,22 @@ def speed_against_error(
             )
         )
     return figures
+
+
+def _most_telling(rows: pd.DataFrame, focus: str) -> pd.DataFrame:
+    """Return at most about MOST_DRAWN of the rows of one device, in their order; all where there are no more.
+
+    Those on the front, those of the focus's variant, the baseline's and each method's fastest stay. Of the others, each
+    method and precision has some, spread evenly over the order of its times.
+    """
+    if len(rows) <= MOST_DRAWN:
+        return rows
+    groups = rows.groupby(["precision", "method"], sort=False)
+    places, sizes = groups.cumcount(), groups["method"].transform("size")
+    each = max(1, MOST_DRAWN // groups.ngroups)
+    step = np.ceil(sizes / each).astype("int64")
+    kept = (places % step == 0) | rows["front"].astype(bool) | (rows["variant"] == focus)
+    return rows[kept | (rows["variant"] == rows["baseline"])]
 
 
 def _speed_against_error(shown: pd.DataFrame, marks: Mapping[str, Mark], focus: str) -> tuple[str, int]:

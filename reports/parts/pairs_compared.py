@@ -166,10 +166,10 @@ def _table(rows: pd.DataFrame) -> Table | None:
         if right.empty:
             continue
         best = ties.best(right)
-        labels = dict(zip(group["key"], group["label"], strict=True))
+        labels, sound_keys = dict(zip(group["key"], group["label"], strict=True)), set(right["key"])
         for row in group.itertuples():
             if row.key != best.key and (ratio := rounds.ratio(row, best)):
-                sound = row.key in set(right["key"])
+                sound = row.key in sound_keys
                 figures = _figures(ratio) if sound else (None, None, None, None, ratio.pairs)
                 told = ties.verdict(ratio) if sound else f"{wording.count(row.wrong_rays)} wrong rays: not compared"
                 body.append((device, precision, labels[best.key], row.label, *figures, told))

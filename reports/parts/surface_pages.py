@@ -81,7 +81,7 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     cells = material.shelf.together(shown.in_strip(rows))
     plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
-    choice = cards.chosen(own)
+    choice = material.choice_of(own)
     first, second = ("", "") if choice is None else (_fastest(choice, own), _risks(choice))
     return (
         [*([Text(first)] if first else []), *_pictures(material, own, choice, rows, cells)],
@@ -190,7 +190,7 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
         made = None
         if len(own):
             card = cards.thumbnail if short else cards.short_card
-            made = card(own, cards.chosen(own), material.shelf)
+            made = card(own, material.choice_of(own), material.shelf)
         if made is None:
             without.append(str(rows["surface_title"].iloc[0]) or name)
         else:
