@@ -50,11 +50,13 @@ class Packed:
     rows: how many rows went from files into parts
     files: how many files were removed because a part holds the same bytes, as one that was killed leaves them
     reason: why rows stayed in files although there are many; "" where none did
+    mended: how many rows of damaged parts were written anew, those whose own checksums hold
     """
 
     rows: int = 0
     files: int = 0
     reason: str = ""
+    mended: int = 0
 
 
 def schema() -> pa.Schema:
@@ -129,7 +131,8 @@ def write_part(folder: Path, rows: Iterable[tuple[Row, bytes]]) -> Path:
 def compact(folder: Path, most: int | None = None) -> Packed:
     """Pack the rows of a run's folder into parts where more than `most`, MOST if not given, have files of their own.
 
-    Files of rows whose very bytes a part holds are removed in any case. Without pyarrow nothing is packed, and the
+    Files of rows whose very bytes a part holds are removed in any case, and a damaged part is replaced by one of its
+    rows that can be read; one of which none can is left as it is. Without pyarrow nothing is packed, and the
     answer says so. Raises FirsthitError where a part cannot be written; the files then stay.
     """
     store = Store(folder)
@@ -140,18 +143,20 @@ def compact(folder: Path, most: int | None = None) -> Packed:
         import pyarrow.parquet  # noqa: F401
     except ModuleNotFoundError:
         return Packed(reason=NEEDS)
+    damaged = [part for part in store.parts.all() if part.problem and len(part.keys)]
+    mended = sum(_rewrite(store, part) for part in damaged)
     removed = [key for key in keys if _is_held(store, key)]
     _remove(store, removed)
     keys = sorted(set(keys) - set(removed))
     if len(keys) <= most:
-        return Packed(files=len(removed))
+        return Packed(files=len(removed), mended=mended)
     packed, ordered = 0, _in_order(folder, keys)
     for start in range(0, len(ordered), ROWS):
         held, some = list[str](), ordered[start : start + ROWS]
         write_part(folder, _read(store, some, held)) if _any(store, some) else None
         _remove(store, held)
         packed += len(held)
-    return Packed(packed, len(removed))
+    return Packed(packed, len(removed), mended=mended)
 
 
 def without(folder: Path, keys: Collection[str]) -> int:
@@ -172,10 +177,10 @@ def without(folder: Path, keys: Collection[str]) -> int:
     return len(removed)
 
 
-def _rewrite(store: Store, part: parts.Part, gone: Collection[str] = ()) -> None:
+def _rewrite(store: Store, part: parts.Part, gone: Collection[str] = ()) -> int:
     """Write the rows of a part that count, but for those that are `gone`, as a new part, and remove the old one.
 
-    Raises FirsthitError where that cannot be done.
+    Returns how many rows were written. Raises FirsthitError where that cannot be done.
     """
     which, places = store.parts.locate(part.keys)
     number = store.parts.all().index(part)
@@ -184,6 +189,7 @@ def _rewrite(store: Store, part: parts.Part, gone: Collection[str] = ()) -> None
     if kept:
         write_part(store.folder, ((row_of(text, key), text) for key, text in _texts(part, kept)))
     _unlink(part.path)
+    return len(kept)
 
 
 def _unlink(path: Path) -> None:

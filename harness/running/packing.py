@@ -40,6 +40,8 @@ class Packing:
         done, folder = compaction.compact(self._store.folder), self._store.folder
         if done.reason:
             self._hears.warned(f"{folder}: there are more than {plural(compaction.MOST, 'row')}; {done.reason}")
+        if done.mended:
+            self._hears.told(f"{folder}: a part was damaged; {plural(done.mended, 'row')} of it can be read, and stay")
         if done.rows or done.files:
             self._hears.told(f"{folder}: packed {plural(done.rows, 'row')} into Parquet")
         self._files = 0 if done.reason else len(self._store.files())  # without the package it is said again later

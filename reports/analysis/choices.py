@@ -21,6 +21,9 @@ _COLUMNS = [
 ]  # of a choice's rows
 
 
+_CHOSEN_BY = ["surface", "comparison", "device", "method", "variant", "origin"]  # columns that tell the fullest scene
+
+
 @dataclass(frozen=True, eq=False)
 class Choice:
     """Hold what to take for one surface on one device: rows as named tuples of the frame.
@@ -95,13 +98,13 @@ def common(values: pd.Series) -> Any:
 
 def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the contenders of each surface's fullest scene, on the device that has most rows of all."""
-    rows = derive.contenders(frame, _COLUMNS)
-    if rows.empty:
-        return rows
-    rows = derive.on_fullest_device(rows)
-    in_plan_order = rows.sort_index()
-    fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
-    return rows[rows["comparison"].isin(fullest)]
+    rows = derive.contenders(frame, _CHOSEN_BY)
+    if not rows.empty:
+        rows = derive.on_fullest_device(rows)
+        in_plan_order = rows.sort_index()
+        fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
+        rows = rows[rows["comparison"].isin(fullest)]
+    return frame.loc[rows.index, _COLUMNS]
 
 
 def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:

@@ -18,6 +18,7 @@ from reports.analysis import rounds
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 _DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
+_CHANGED = {*_ACCURACY, "overhead_share", "baseline"}  # columns that rows have, and that are not left as they are
 FLOOR_FACTOR = 2.0  # a time below this many times the null method's is more the harness's than the method's
 
 
@@ -29,7 +30,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     clock and positive; a speed-up, unless both rows answer every ray away from silhouettes rightly; a share of a peak
     above 1, which sets `peak_too_low` instead.
     """
-    answers = frame["answers"].astype(bool)
+    given, answers = frame, frame["answers"].astype(bool)
     frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY if name in frame})
     for name in _DROWNED:  # older rows do not count these rays apart
         frame[name] = frame[name].mask(frame[name].isna() & frame["misses"].notna(), 0)
@@ -53,7 +54,9 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     frame["peak_too_low"] = (share > 1.0).astype("boolean")
     frame["peak_share"] = share.where(share <= 1.0)
     frame["front"] = _front(frame)
-    return frame.copy()  # in one block of memory, which columns added one by one are not
+    made = [name for name in frame.columns if name in _CHANGED or name not in given.columns]
+    own = frame[made].copy()  # in one block of memory, which columns added one by one are not
+    return pd.concat([given.drop(columns=made, errors="ignore"), own], axis=1)  # shares the other columns' memory
 
 
 def kinds(rows: pd.DataFrame) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ row is in the details.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import pandas as pd
@@ -22,7 +23,26 @@ from reports.reading.arrays import Arrays
 
 ORDER = 20
 FRONTS = 16  # plots of further scenes and devices, in the details of all surfaces that have pages
+MOST_PRINTED = 20_000  # rows of all tables of every figure together, about: a page of more is slow to open
 CARDS = 48  # a run with more surfaces has a picture with a name and a time for each, in place of a card
+
+
+_CHOSEN_BY = list(
+    dict.fromkeys([*tables.CHOSEN_BY, "label", "method_label", "surface", "comparison", "origin", "median_ms"])
+)  # columns that `_printed` reads
+
+
+class _Surfaces:
+    """Hold the rows of each surface, in the plan's order; they are taken when they are asked for."""
+
+    def __init__(self, frame: pd.DataFrame) -> None:
+        self._frame, self._places = frame, frame.groupby("surface", sort=False).indices
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __iter__(self) -> Iterator[tuple[str, pd.DataFrame]]:
+        return ((str(name), self._frame.take(places)) for name, places in self._places.items())
 
 
 def sections(material: Material) -> list[Section]:
@@ -30,14 +50,15 @@ def sections(material: Material) -> list[Section]:
     frame = material.listed
     if frame.empty:
         return []
-    finished = frame[frame["status"] == CellStatus.OK]
+    finished = frame.loc[frame["status"] == CellStatus.OK, _CHOSEN_BY]  # of very many rows a copy of all takes 1 GB
     if finished.empty:
         return [Section("Surfaces", (Text("No cell gave a result; the reasons are listed below."),))]
-    printed, told = _printed(finished)
+    chosen, told = _printed(finished)
+    printed = frame.loc[chosen.index]
     guide = Section(
         "How to read the surfaces' pages", (), (*map(Text, (surface_tables.LEGEND, surface_tables.UNITS)), *told)
     )
-    surfaces = [(str(name), rows) for name, rows in frame.groupby("surface", sort=False)]
+    surfaces = _Surfaces(frame)
     paged = shown.with_pages(frame)
     spread = len(surfaces) <= shown.SPREADS
     named = scene_names(frame)
@@ -60,7 +81,10 @@ def sections(material: Material) -> list[Section]:
 
 
 def _printed(finished: pd.DataFrame) -> tuple[pd.DataFrame, list[Block]]:
-    """Return the rows that tables of every figure show, and a text that says which if they are not all."""
+    """Return the rows that tables of every figure show, and a text that says which if they are not all.
+
+    `finished` has the columns _CHOSEN_BY, as what is returned has.
+    """
     printed = tables.worth_printing(finished)
     if len(printed) == len(finished):
         return printed, []
@@ -70,6 +94,11 @@ def _printed(finished: pd.DataFrame) -> tuple[pd.DataFrame, list[Block]]:
         kept_scenes = {shown.fullest(own) for _, own in printed.groupby("surface", sort=False)}
         printed = printed[printed["comparison"].isin(kept_scenes)]
         kept += f", and of these {len(printed):,}, of each surface's scene with most methods"
+    if len(printed) > MOST_PRINTED:
+        each = max(1, MOST_PRINTED // printed["comparison"].nunique())
+        best = printed.sort_values(["front", "median_ms"], ascending=[False, True], kind="stable")
+        printed = best.groupby("comparison", sort=False).head(each).sort_index()
+        kept += f"; of these the first {each} of each scene, those on the front and then the fastest"
     return printed, [Text(f"Printed are {kept}. results.csv has all.")]
 
 
@@ -181,7 +210,7 @@ def _tables(printed: pd.DataFrame) -> list[Block]:
     return made
 
 
-def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Section:
+def _atlas(material: Material, surfaces: _Surfaces) -> Section:
     """Make the atlas: a card for each surface, or of more than CARDS surfaces a picture with the winner's name."""
     short = len(surfaces) > CARDS
     panels, without = [], []
