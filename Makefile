@@ -44,6 +44,7 @@ bench: $(READY)
 	$(BIN)/python -m tests.benchmarks.plan_memory 14
 	$(BIN)/python -m tests.benchmarks.storing
 	$(BIN)/python -m tests.benchmarks.cluster
+	$(BIN)/python -m tests.benchmarks.report_speed 10000 100000 1000000
 	$(BIN)/python -m pytest -q tests/benchmarks --benchmark-enable --benchmark-only --benchmark-autosave
 
 gate: $(READY)
