@@ -74,6 +74,9 @@ class SleepingExecutor:
     def close(self) -> None:
         self._kept.clear()
 
+    def kill(self) -> None:
+        self.close()
+
 
 def announce(resources: Any) -> dict[str, Any]:
     """Say what a worker has, without looking: its resources name its machine too, as `opencl:sleeping#lab1`."""

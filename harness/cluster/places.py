@@ -16,6 +16,7 @@ from harness.devices.host import Host
 from harness.devices.probes import Probes
 
 LOOK_SECONDS = 0.25  # between two looks whether the worker is still there
+ANSWER_SECONDS = 30.0  # for what has ended to be fetched
 
 
 class Lost(Exception):
@@ -107,8 +108,9 @@ class Hold:
         try:
             future = begun()
             while True:
+                pending = getattr(future, "status", "pending") == "pending"  # else what it found is on its way
                 try:
-                    return future.result(timeout=LOOK_SECONDS)
+                    return future.result(timeout=LOOK_SECONDS if pending else ANSWER_SECONDS)
                 except (Late, TimeoutError):
                     self.stop()
                     if self.place.gone is not None:
