@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -82,6 +83,31 @@ def test_a_step_that_fails_at_once_is_taken_again_after_a_look_at_the_scheduler(
 
         monkeypatch.setattr("harness.cluster.places.Hold.step", step)
         assert executor._ask(INFO.name, "warm") == "taken" and len(looks) <= LOSSES
+
+
+def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        executor = ClusterExecutor(engine, INFO.name, engine.take(lambda _: True), lambda _: True, 5.0, 0.5)
+        executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
+        hold = executor._hold
+        assert hold
+        hold._actor = Mute()
+        thread, found = _in_a_thread(lambda: executor.warm(INFO.name, "k", None))  # type: ignore[arg-type]
+        engine.client.cancel([hold._future])  # as where the client was cut off from the scheduler for a moment
+        thread.join(30)
+    assert [warmed.batch for warmed in found] == [1]
+
+
+class Mute:
+    """Stand for a process that never answers; Dask asks it no more, and does not tell so."""
+
+    def step(self, _: bytes) -> Any:
+        return self
+
+    def result(self, timeout: float) -> Any:
+        time.sleep(min(timeout, 0.01))
+        raise TimeoutError
 
 
 def test_chunks_whose_scheduler_was_lost_are_asked_for_again() -> None:

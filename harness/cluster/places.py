@@ -115,6 +115,8 @@ class Hold:
                     self.stop()
                     if self.place.gone is not None:
                         raise Lost(self.place.gone) from None
+                    if self._future and self._future.status not in ("pending", "finished"):  # nothing will be answered
+                        raise Lost(f"its worker does not hold the device any more ({self._future.status})") from None
         except (Lost, CellError):
             raise
         except Exception as error:  # what the connection, the scheduler and Dask raise where something is lost
