@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -94,7 +94,7 @@ def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:
         assert hold
         hold._actor = Mute()
         thread, found = _in_a_thread(lambda: executor.warm(INFO.name, "k", None))  # type: ignore[arg-type]
-        engine.client.cancel([hold._future])  # as where the client was cut off from the scheduler for a moment
+        engine.client.cancel([hold._made])  # as where the client was cut off from the scheduler for a moment
         thread.join(30)
     assert [warmed.batch for warmed in found] == [1]
 
@@ -102,12 +102,8 @@ def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:
 class Mute:
     """Stand for a process that never answers; Dask asks it no more, and does not tell so."""
 
-    def step(self, _: bytes) -> Any:
-        return self
-
-    def result(self, timeout: float) -> Any:
-        time.sleep(min(timeout, 0.01))
-        raise TimeoutError
+    async def step(self, _: bytes) -> Any:
+        await asyncio.Event().wait()
 
 
 def test_chunks_whose_scheduler_was_lost_are_asked_for_again() -> None:

@@ -119,7 +119,8 @@ def kept_running(supervisor: Supervisor) -> Iterator[None]:
 
     def look() -> None:
         while not ended.wait(LOOK_SECONDS):
-            supervisor.look()
+            with contextlib.suppress(FirsthitError):  # one cannot be started now, as where memory is short
+                supervisor.look()
 
     thread = threading.Thread(target=look, daemon=True)
     thread.start()
