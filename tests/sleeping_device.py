@@ -74,6 +74,9 @@ class SleepingExecutor:
     def close(self) -> None:
         self._kept.clear()
 
+    def kill(self) -> None:
+        self.close()
+
 
 def announce(resources: Any) -> dict[str, Any]:
     """Say what a worker has, without looking: its resources name its machine too, as `opencl:sleeping#lab1`."""
@@ -91,10 +94,12 @@ def cluster(workers: Sequence[dict[str, float]], patience: float = 20.0) -> Iter
     Yields Dask's cluster, with `add` to add a worker and `workers_of_test`, the engine, and what it tells.
     """
     os.environ.setdefault(starting.LOGGING, "critical")
+    import dask
     from dask.distributed import Client, LocalCluster, Worker
 
     told: list[str] = []
-    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched:
+    soon = dask.config.set({"distributed.comm.timeouts.connect": "1s"})  # for who ends a cluster whose scheduler ended
+    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched, soon:
         patched.setattr(holder, "LocalExecutor", SleepingExecutor)
         patched.setattr(holder.admission, "alone", lambda *_, **__: contextlib.nullcontext())
         patched.setattr(holder.admission, "_folder", lambda: Path(locks))  # not those of this machine's workers

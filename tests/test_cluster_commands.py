@@ -14,6 +14,7 @@ from harness import ROOT
 from harness.cli import main
 from harness.cluster import slurm
 from harness.contract import FirsthitError
+from tests.conftest import usable_devices
 from tests.test_light import _python
 from tests.test_light import environment as environment
 
@@ -101,6 +102,23 @@ def _parsed(words: list[str]) -> object:
     return build_parser(words).parse_args(words)
 
 
+SERVES = """
+import pickle, sys
+from distributed import Nanny, Worker
+from harness.cluster import holder, serving, starting, supervisor
+
+for name in sys.argv[1:]:
+    (info, probes), = pickle.loads(holder.announce({name: 1.0})["said"]).devices
+    assert probes and not info.problem, info.problem
+    held = holder.Holder(60.0, 0.5)
+    said = pickle.loads(held.step(pickle.dumps(("fingerprint", (name,), info.resident is None, []))))
+    assert said[0] == "ok", said
+    held.close()
+assert holder.announce({"cores": 1.0})["code"]
+print("ready")
+"""
+
+
 def _needed(name: str, found: set[str]) -> set[str]:
     """Return a package, and all that it cannot be installed without."""
     from packaging.requirements import Requirement
@@ -121,7 +139,6 @@ def test_a_worker_needs_the_engine_and_no_more(environment: dict[str, str]) -> N
             link = folder / file.parts[0]
             if file.parts[0] not in ("..", "__pycache__") and not link.exists():
                 link.symlink_to(str(distribution(name).locate_file(file.parts[0])))
-    code = "from harness.cluster import holder, serving, supervisor, starting\nfrom distributed import Nanny, Worker\n"
-    code += "assert holder.announce({'cores': 1.0})['code']\nprint('ready')"
-    result = _python(environment, "-c", code)
+    names = [info.name for info in usable_devices()][-1:]  # one that works will do
+    result = _python(environment, "-c", SERVES, *names)
     assert result.stdout == "ready\n", result.stderr

@@ -27,9 +27,9 @@ def lists(language: Language) -> tuple[str, str]:
 class StageText:
     """State what a stage's program is made for.
 
-    `folder` holds the method's kernel.glsl and, where a stage has a file of its own, that file, named as the stage.
-    `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it has the same
-    method's knobs and tables.
+    `name` is the stage's. `folder` holds the method's kernel.glsl and, where a stage has a file of its own, that file,
+    named as the stage. `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it
+    has the same method's knobs and tables.
     """
 
     method: Method
@@ -38,7 +38,7 @@ class StageText:
     surface: Surface
     precision: Precision
     language: Language
-    stage: TileStage
+    name: TileStage
     rest: Path
 
     def program(self, needs: Sequence[str], shape: Section, own: Sequence[Section]) -> Program:
@@ -52,12 +52,12 @@ class StageText:
         if self.language == "glsl":
             sections.insert(1, kept_loops())
         sections += [shape, *files("rays/camera.glsl")]
-        if self.stage == "rest":
+        if self.name == "rest":
             sections += [*method_sections(self.method, self.rest, *stated), *cast_sections("nearest")]
             sections += files(*lists(self.language), "tiles/rest.glsl")
         else:
             domain = "box" if isinstance(self.surface.domain, Box) else "sphere"
             sections += [*own, *files(f"tiles/domain_{domain}.glsl", "tiles/frame.glsl")]
-            sections += method_sections(self.method, self.folder, *stated, stage=self.stage)
-        sections += files(f"tiles/entry_{self.stage}.{self.language}")
-        return Program(self.language, self.precision, self.stage, tuple(sections))
+            sections += method_sections(self.method, self.folder, *stated, stage=self.name)
+        sections += files(f"tiles/entry_{self.name}.{self.language}")
+        return Program(self.language, self.precision, self.name, tuple(sections))
