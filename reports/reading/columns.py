@@ -57,7 +57,6 @@ UNREAD = frozenset(  # columns that only results.csv and results.parquet have: a
         "normal_error_degrees_p999",
         "residual_p50",
         "residual_p999",
-        "prepass_evaluations_mean",
         "program_hash",
         "started",
         "identity",
