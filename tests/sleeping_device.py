@@ -16,6 +16,7 @@ import pytest
 from harness.cluster import holder, starting
 from harness.cluster.engine import Engine
 from harness.cluster.holder import Announced
+from harness.cluster.serving import QUIET
 from harness.contract import DeviceInfo, Hits, RayStatus
 from harness.devices.executor import CellError
 from harness.devices.host import Host
@@ -98,8 +99,8 @@ def cluster(workers: Sequence[dict[str, float]], patience: float = 20.0) -> Iter
     from dask.distributed import Client, LocalCluster, Worker
 
     told: list[str] = []
-    soon = dask.config.set({"distributed.comm.timeouts.connect": "1s"})  # for who ends a cluster whose scheduler ended
-    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched, soon:
+    soon = {"distributed.comm.timeouts.connect": "1s"}  # for who ends a cluster whose scheduler has ended
+    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched, dask.config.set(QUIET | soon):
         patched.setattr(holder, "LocalExecutor", SleepingExecutor)
         patched.setattr(holder.admission, "alone", lambda *_, **__: contextlib.nullcontext())
         patched.setattr(holder.admission, "_folder", lambda: Path(locks))  # not those of this machine's workers

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import subprocess
 import sys
 from importlib.metadata import distribution
 from pathlib import Path
 
+import dask
 import pytest
 
 from harness import ROOT
 from harness.cli import main
-from harness.cluster import slurm
+from harness.cluster import serving, slurm
 from harness.contract import FirsthitError
 from tests.conftest import usable_devices
 from tests.test_light import _python
@@ -60,6 +62,12 @@ def test_a_run_without_a_cluster_imports_no_dask() -> None:
     code = "import sys, harness.cli, harness.commands.experiment, harness.running.run, firsthit\n"
     code += "sys.exit(any(name in sys.modules for name in ('dask', 'distributed', 'harness.cluster')))"
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=100, check=False).returncode == 0
+
+
+def test_what_is_kept_quiet_in_a_worker_is_what_dask_does() -> None:
+    importlib.import_module("distributed")  # whose settings are among Dask's then
+    stated = {name: dask.config.get(name) for name in serving.QUIET}
+    assert all(stated[name] != value for name, value in serving.QUIET.items()), stated
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,11 @@ from harness.cluster.holder import MACHINE
 from harness.hosting import process
 
 PRELOAD = "harness.cluster.serving"  # its dask_setup, in the worker's process
+QUIET = {  # what Dask does by itself in a worker, 100 times a second, 50 times and 2: a timed step would hear it
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "5s",
+}
 
 
 def dask_setup(_worker: Any) -> None:
@@ -29,8 +34,10 @@ def dask_setup(_worker: Any) -> None:
 async def serve(address: str, name: str, resources: dict[str, float], machine: str, asked: Connection) -> None:
     """Serve the scheduler at an address until it, or the worker's nanny, has ended, or the other end of `asked`."""
     os.environ[MACHINE] = machine
+    import dask
     from distributed import Nanny
 
+    dask.config.set(QUIET)  # the nanny hands it to the worker
     stated: dict[str, Any] = {"name": name, "resources": resources, "preload": [PRELOAD]}
     async with Nanny(address, nthreads=1, memory_limit=0, dashboard=False, **stated) as nanny:
         loop, told = asyncio.get_running_loop(), asyncio.Event()
