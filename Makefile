@@ -44,6 +44,7 @@ bench: $(READY)
 	$(BIN)/python -m tests.benchmarks.plan_memory 14
 	$(BIN)/python -m tests.benchmarks.storing
 	$(BIN)/python -m tests.benchmarks.cluster
+	$(BIN)/python -m tests.benchmarks.report_speed 10000 100000 1000000
 	$(BIN)/python -m pytest -q tests/benchmarks --benchmark-enable --benchmark-only --benchmark-autosave
 
 gate: $(READY)
@@ -53,7 +54,7 @@ check: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/firsthit compile --together --surface torus --surface barth_sextic
+	$(BIN)/firsthit compile --together --timeout 300 --surface torus --surface barth_sextic
 
 format: $(READY)
 	$(BIN)/ruff format .

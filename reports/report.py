@@ -18,6 +18,7 @@ from reports.material import Material
 from reports.place import checked, place
 from reports.reading import export, load
 from reports.reading.arrays import Shelf
+from reports.reading.columns import UNREAD
 from reports.reading.run import Run
 from reports.rendering import bundle, document, html
 
@@ -49,7 +50,7 @@ def build(
     `output` is a file, lies in a run or cannot be written to.
     """
     folder = checked(place(run) if output is None else output)
-    with load.opened(run) as loaded:
+    with load.opened(run, UNREAD) as loaded:
         _build(loaded, folder, baseline, focus, appendix, figures, tables, tell)
     return folder / "report.pdf"
 
@@ -76,7 +77,7 @@ def _build(
         tell("writing the page")
         html.write_html(content, material.method_marks, made / "report.html", _labels(loaded), bundle.library())
         tell("writing the tables")
-        export.write(frame, made / "results.csv", made / "results.parquet")
+        export.write(frame, made / "results.csv", made / "results.parquet", rest=loaded.columns)
         if not rungs.empty:
             export.without_formulas(rungs).to_csv(made / "stability.csv", index=False)
         if figures or tables:

@@ -152,7 +152,9 @@ def _claims(_options: Namespace) -> Iterable[str]:
 def _cells(options: Namespace) -> list[str]:
     """List the keys of the results in the folder that --runs names."""
     folder = getattr(options, "runs", None) or Path("runs")
-    return sorted(path.stem for path in Path(folder).glob("*/cells/*.json"))
+    from harness.results.history import keys_below
+
+    return sorted({key for _, key in keys_below(Path(folder))})
 
 
 def _plugins(options: Namespace) -> Path | None:

@@ -99,8 +99,8 @@ def _merge(options: argparse.Namespace) -> int:
         tell_wrong(f"firsthit: {line}")
     for run, count in found.elsewhere.items():
         tell(f"firsthit: {run}: {plural(count, 'cell')} that it skipped for want of a device were run by others")
-    if found.shards:
-        tell(f"firsthit: {found.shards}")
+    for line in filter(None, (found.shards, found.unpacked)):
+        tell(f"firsthit: {line}")
     print(console.table(("run", "rows taken", "of cells"), [(run, *map(str, own)) for run, own in found.runs.items()]))
     rows = f"{found.rows} of {plural(found.cells, 'cell')} have a row"
     done = f"{plural(found.written, 'file')} written" if found.written else "nothing was new"

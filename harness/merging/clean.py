@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError
-from harness.results import plan_file, sealed, writing
+from harness.results import compaction, plan_file, sealed, writing
 from harness.results.begun import Begun
 from harness.results.lock import Doing, locked
 from harness.results.store import Store
@@ -19,7 +19,7 @@ from harness.results.store import Store
 class Unnamed:
     """Name a file that no plan names, or one that holds a row which none names.
 
-    size: in bytes
+    size: in bytes; of a row in a part, its share of the part
     what: what it is
     key: of the row; "" where it is none
     """
@@ -43,8 +43,8 @@ def clean(
 
     With `truth` the oracle's answers go too: no plan says which of them it needs, and the next run makes them anew.
     With `dry` nothing is removed, and nobody's lock is asked for. The rows of cells that the plan names stay, damaged
-    ones too. Raises FirsthitError where there is no run, its plan cannot be read, another process writes into it, or a
-    file cannot be removed.
+    ones too, and so does a damaged part. Raises FirsthitError where there is no run, its plan cannot be read, another
+    process writes into it, or a file cannot be removed.
     """
     folders = _folders(folder)
     if dry:
@@ -53,7 +53,7 @@ def clean(
     with locked(folders, command, wait=wait, doing=doing):
         for own in folders:
             found = unnamed(own, truth)
-            Store(own).remove(one.key for one in found if one.key)
+            compaction.without(own, {one.key for one in found if one.key})
             for one in found:
                 if not one.key:
                     try:
@@ -86,12 +86,12 @@ def unnamed(folder: Path, truth: bool = False) -> list[Unnamed]:
     """List the files of a run that its plan does not name. Raises FirsthitError where the plan cannot be read."""
     plan = _plan(folder)
     slots = {cell["key"]: cell["slot"] for cell in (*plan["cells"], *plan.get("families", ()))}
-    store, found = Store(folder), list[Unnamed]()
-    every = store.keys()
-    for key in every:
-        if key not in slots:
-            place = store.place(key)
-            found.append(Unnamed(place, _size(place), _what(store, key, set(slots.values())), key))
+    store, found, planned = Store(folder), list[Unnamed](), set(slots.values())
+    damaged = {folder / name for name in store.parts.problems()}
+    for key in store.in_storage_order(set(store.keys()) - slots.keys()):
+        place = store.place(key)
+        if place not in damaged:
+            found.append(Unnamed(place, store.size(key), _what(store, key, planned), key))
     for path in _files(folder / "arrays", ".npz"):
         if path.stem not in slots:
             found.append(Unnamed(path, _size(path), "answers of a row that the plan does not name"))

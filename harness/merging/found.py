@@ -29,6 +29,10 @@ class Source:
         """Read a row. Raises FileNotFoundError where there is none, and OSError or ValueError where it is damaged."""
         return row_of(self.store.text(key), key)
 
+    def file_of(self, key: str) -> str:
+        """Return the name of the file that holds a row, below the folder."""
+        return self.store.place(key).relative_to(self.folder).as_posix()
+
     @property
     def machine(self) -> str:
         """Return the machine that wrote the plan; of older runs, which do not say it, the folder's name."""
@@ -101,7 +105,8 @@ class Left:
 
 
 def cells_of(source: Source, left: list[Left], tell: Callable[[str], None] = lambda _: None) -> Iterator[Cell]:
-    """Yield the cells of a run in its plan's order; rows that cannot be read are noted in `left`."""
+    """Yield the cells of a run in its plan's order; rows and parts that cannot be read are noted in `left`."""
+    left += [Left(source.name, name, problem) for name, problem in source.store.parts.problems().items()]
     for listed in ("cells", "families"):
         named = source.plan.get(listed, ())
         for number, one in enumerate(named, 1):
@@ -120,7 +125,7 @@ def _cell(source: Source, listed: str, one: Mapping[str, Any], left: list[Left])
         pass
     except (OSError, ValueError) as error:
         row = None
-        left.append(Left(source.name, f"cells/{key}.json", f"{sealed.problem(error)} ({slot})"))
+        left.append(Left(source.name, source.file_of(key), f"{sealed.problem(error)} ({slot})"))
     device = row["device"] if row else slot.rpartition(" ")[2]
     own, told = device.partition("@")[0], one.get("device", device)
     place = slot.removesuffix(device)

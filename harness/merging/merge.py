@@ -14,7 +14,7 @@ from typing import Any
 from harness.contract import FirsthitError, plural
 from harness.merging.choose import Chosen, Twice, choose
 from harness.merging.found import Cell, Left, Source, cells_of, lists_of
-from harness.results import archive, pictures_file, plan_file, sealed, study_file
+from harness.results import archive, compaction, pictures_file, plan_file, sealed, study_file
 from harness.results.lock import Doing, locked
 from harness.results.store import FORMAT, Store, row_of
 from harness.results.writing import replacing
@@ -31,6 +31,7 @@ class Merged:
     written: files that were written now
     left: what was not merged, and why
     shards: what is missing of the shards, "" for nothing
+    unpacked: why rows lie in files although there are very many, "" where they do not
     """
 
     folder: Path
@@ -43,6 +44,7 @@ class Merged:
     twice: list[Twice] = field(default_factory=list)
     elsewhere: Counter[str] = field(default_factory=Counter)
     shards: str = ""
+    unpacked: str = ""
 
 
 def merge(
@@ -77,7 +79,7 @@ def merge(
         plan = _plan(sources, chosen, command)
         store = Store(output)
         found.written += _write_plan(store, plan)
-        found.written += _write_rows(store, chosen, found.left, tell)
+        found.written += _write_rows(store, chosen, found, tell)
         found.written += _write_studies(store, sources, plan, found.left)
         if truth:
             found.written += _write_truth(store, sources)
@@ -235,8 +237,8 @@ def _write_plan(store: Store, plan: dict[str, Any]) -> int:
     return 1
 
 
-def _write_rows(store: Store, chosen: Chosen, left: list[Left], tell: Tell) -> int:
-    """Write rows, the arrays of each first; return how many files were written."""
+def _write_rows(store: Store, chosen: Chosen, found: Merged, tell: Tell) -> int:
+    """Write rows, the arrays of each first, and pack them where they are many; return how many files were written."""
     new = [cell for cell in chosen.cells if cell.made and cell.source.folder != store.folder]
     written = 0
     for number, cell in enumerate(new, 1):
@@ -245,7 +247,7 @@ def _write_rows(store: Store, chosen: Chosen, left: list[Left], tell: Tell) -> i
             text = cell.source.store.text(cell.key)
             row = row_of(text, cell.key)
         except (OSError, ValueError) as error:
-            left.append(Left(cell.source.name, f"cells/{cell.key}.json", sealed.problem(error)))
+            found.left.append(Left(cell.source.name, cell.source.file_of(cell.key), sealed.problem(error)))
             continue
         if row.get("arrays") is not None:
             file = cell.source.folder / row["arrays"]
@@ -255,9 +257,11 @@ def _write_rows(store: Store, chosen: Chosen, left: list[Left], tell: Tell) -> i
                 written += 1
             except (OSError, ValueError) as error:
                 told = f"{sealed.problem(error)}; the row is merged without its answers ray by ray ({cell.slot})"
-                left.append(Left(cell.source.name, row["arrays"], told))
+                found.left.append(Left(cell.source.name, row["arrays"], told))
         store.write_text(cell.key, text)
         written += 1
+        if number % compaction.MOST == 0 or number == len(new):
+            found.unpacked = compaction.compact(store.folder).reason
     return written
 
 

@@ -1,10 +1,10 @@
 """Pack a run into one file, and read it from there as from its folder.
 
-The file is a zip archive; any program that unpacks one gives the run's folder. Its members, run by run and sorted:
+The file is a zip archive; any program that unpacks one gives the run's folder. Its members, run by run:
 
     archive.json             FORMAT, the name of the run, those of all runs that are packed, and whether with truth
     RUN/plan.json            what the run set out to do
-    RUN/cells/KEY.json       the rows of cells that the plan names
+    RUN/cells/KEY.json       the rows of cells that the plan names, from files and Parquet parts alike
     RUN/arrays/KEY.npz       their answers ray by ray
     RUN/studies/KEY.json     the studies that the plan names
     RUN/truth/HASH.npz       the oracle's answers, on request
@@ -115,16 +115,15 @@ def _plan(folder: Path) -> Mapping[str, Any]:
 
 
 def _files(store: Store, truth: bool) -> list[str]:
-    """List the files of a run that are packed, by their paths in its folder, sorted."""
+    """List the files of a run that are packed, by their paths in its folder; rows follow in the plan's order."""
     plan = _plan(store.folder)
-    keys = {cell["key"] for cell in (*plan["cells"], *plan.get("families", ()))}
+    keys = dict.fromkeys(cell["key"] for cell in (*plan["cells"], *plan.get("families", ())))
     named = ["plan.json", *(f"arrays/{key}.npz" for key in keys)]
     named += [f"studies/{study['key']}.json" for study in plan.get("studies", ())]
     named += [f"truth/{path.name}" for path in (store.folder / "truth").glob("*.npz")] if truth else []
-    there = {name for name in named if (store.folder / name).exists()} | {
-        f"cells/{k}.json" for k in keys if store.has(k)
-    }
-    return sorted(name for name in there if _MEMBER.fullmatch(name))
+    there = sorted(name for name in named if (store.folder / name).exists())
+    rows = set(store.keys())
+    return [name for name in (*there, *(f"cells/{key}.json" for key in keys if key in rows)) if _MEMBER.fullmatch(name)]
 
 
 def _is_name(name: str) -> bool:

@@ -19,7 +19,8 @@ TYPES = {  # what a reader is told of a field's kind
 }
 _HEAD = """# What a row holds
 
-`firsthit run` stores each cell as `runs/NAME/cells/KEY.json`; `firsthit report` writes `results.csv`, with a line for
+`firsthit run` stores each cell as `runs/NAME/cells/KEY.json`, and packs many of them into Parquet parts
+([rows.md](rows.md)); `firsthit report` writes `results.csv`, with a line for
 each cell that is a view, `results.parquet`, with the same columns, and, of families of hard rays, `stability.csv`, with
 a line for each rung.
 

@@ -14,8 +14,11 @@ import types
 import typing
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, NotRequired
 
+from harness.results import declared
+from harness.results.declared import Check
 from harness.results.row import KINDS as KINDS
 from harness.results.row import SAME_NAME, Leaf, Part, RungVerdict, StoredRow, Times
 
@@ -33,6 +36,13 @@ class Field:
     kind: Kind
     path: tuple[str, ...]  # "[]" stands for every item of a list
     meaning: str
+    stated: Any = None  # the leaf's type with its limits, which `check` holds values against
+    always: bool = False  # whether every row has it
+
+    @cached_property
+    def check(self) -> Check:
+        """Return what raises ValueError, which names the path, for a value that the leaf cannot hold."""
+        return declared.checker(Any if self.stated is None else self.stated)
 
 
 def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefix: str = "") -> Iterator[Field]:
@@ -52,7 +62,8 @@ def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefi
         leaf = note if isinstance(note, Leaf) else Leaf(note)
         column = name if leaf.column == SAME_NAME else leaf.column
         meaning = f"{leaf.meaning} of {within}" if within else leaf.meaning
-        yield Field(prefix + column if column else "", _kind(kind), here, meaning)
+        always = leaf.always and len(here) == 1
+        yield Field(prefix + column if column else "", _kind(kind), here, meaning, annotated, always)
         if typing.get_origin(kind) is list and typing.is_typeddict(item := typing.get_args(kind)[0]):
             yield from (replace(field, name="") for field in fields_of(item, (*here, "[]")))
 

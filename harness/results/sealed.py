@@ -100,10 +100,9 @@ def read(path: Path) -> dict[str, Any]:
     return unsealed(content(path))
 
 
-def is_sealed(path: Path) -> bool:
-    """Tell whether a file has a checksum, which older versions did not write. Raises OSError if it cannot be read."""
-    with path.open("rb") as file:
-        return bool(_SEAL.fullmatch(file.readline(200).rstrip(b"\r\n")))
+def has_seal(text: bytes) -> bool:
+    """Tell whether the bytes of a file begin with a checksum, whether that holds or not."""
+    return bool(_SEAL.fullmatch(text[:200].partition(b"\n")[0].rstrip(b"\r")))
 
 
 def unsealed(text: bytes) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 plan.json            the experiment as last run: which cells it names, on which devices
 cells/<key>.json     one row
+parts/<…>.parquet    many rows, of a run that has very many (harness.results.parts)
 arrays/<key>.npz     that row's answers on the accuracy grid, as pictures
 truth/<hash>.npz     the oracle's answers, shared by all rows with the same rays
 begun/               what is known of cells that have no row yet (harness.results.begun)
@@ -17,8 +18,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError
 from harness.results import agreement, sealed
+from harness.results.parts import Parts
 from harness.results.row import Environment, StoredRow
 from harness.results.writing import savez_atomically, write_atomically
 
@@ -63,24 +64,40 @@ class Store:
         self.folder = folder
         self.truth = folder / "truth"
         self.unreadable: dict[str, str] = {}
+        self.parts = Parts(folder)
 
     def _cell(self, key: str) -> Path:
         return self.folder / "cells" / f"{key}{ENDING}"
 
     def has(self, key: str) -> bool:
-        """Tell whether there is a file of the row of `key`, whole or not."""
-        return self._cell(key).exists()
+        """Tell whether there is a file of the row of `key`, whole or not, or a part that has the row.
+
+        This and what reads rows raises FirsthitError where there are parts and the package that reads them is missing.
+        """
+        return self._cell(key).exists() or self.parts.find(key) is not None
 
     def place(self, key: str) -> Path:
-        """Return the file that holds the row of `key`; its own where there is none."""
-        return self._cell(key)
+        """Return the file that holds the row of `key`, its own or a part; its own where there is none."""
+        found = None if self._cell(key).exists() else self.parts.find(key)
+        return self._cell(key) if found is None else found[0].path
+
+    def size(self, key: str) -> int:
+        """Return the bytes that the row of `key` takes on the disk, in a part its share; 0 where there is none."""
+        try:
+            return self._cell(key).lstat().st_size
+        except OSError:
+            found = self.parts.find(key)
+            return 0 if found is None else found[0].path.lstat().st_size // len(found[0].keys)
 
     def text(self, key: str) -> bytes:
-        """Return the bytes of the file that the row of `key` has.
+        """Return the bytes of the file that the row of `key` has, or had before it went into a part.
 
         Raises FileNotFoundError where there is none, and OSError or ValueError where it cannot be read.
         """
-        return sealed.content(self._cell(key))
+        try:
+            return sealed.content(self._cell(key))
+        except FileNotFoundError:  # looked for first, since rows go from files into parts, never back
+            return self.parts.text(key)
 
     def read(self, key: str, *, older: bool = False) -> Row | None:
         """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why).
@@ -98,8 +115,8 @@ class Store:
             return None
 
     def keys(self) -> list[str]:
-        """Return the key of every row that has a file, sorted."""
-        return self.files()
+        """Return the key of every row that has a file or lies in a part, sorted."""
+        return sorted({*self.files(), *self.parts.keys()})
 
     def files(self) -> list[str]:
         """Return the keys of the rows that have files of their own, sorted."""
@@ -111,7 +128,7 @@ class Store:
 
     def in_storage_order(self, keys: Iterable[str]) -> list[str]:
         """Return keys in the order in which reading their rows is fast."""
-        return list(keys)
+        return self.parts.in_storage_order(keys)
 
     def write(self, row: Row, arrays: dict[str, NDArray[Any]] | None = None) -> None:
         """Store a finished row, its arrays first, so that a row never names arrays that are not there.
@@ -134,14 +151,6 @@ class Store:
         name = f"arrays/{key}.npz"
         savez_atomically(self.folder / name, **arrays)
         return name
-
-    def remove(self, keys: Iterable[str]) -> None:
-        """Remove rows. Raises FirsthitError where a file cannot be removed."""
-        for key in keys:
-            try:
-                self._cell(key).unlink(missing_ok=True)
-            except OSError as error:
-                raise FirsthitError(f"cannot remove {self._cell(key)}: {error.strerror}", exit_code=3) from None
 
     def rows(self) -> Iterator[Row]:
         """Yield every row that can be read, current or stale; what an older version did not write is null."""

@@ -125,7 +125,7 @@ def replacing(path: Path) -> Iterator[Path]:
         try:
             yield temporary
             temporary.chmod(0o644)
-            _flush(temporary)
+            flush(temporary)
             temporary.replace(path)
         finally:
             temporary.unlink(missing_ok=True)  # only where it did not become `path`
@@ -147,7 +147,7 @@ def replacing_together(folder: Path, what: str) -> Iterator[Path]:
             yield new
             files = sorted(path for path in new.iterdir() if path.is_file())
             for file in files:
-                _flush(file)
+                flush(file)
             for file in files:
                 file.replace(folder / file.name)
     except OSError as error:
@@ -191,7 +191,7 @@ def savez_atomically(path: Path, **arrays: NDArray[Any]) -> None:
         np.savez_compressed(file, **cast(Any, arrays))
 
 
-def _flush(path: Path) -> None:
+def flush(path: Path) -> None:
     """Wait until a file's content is on the disk, since its new name may get there first."""
     with path.open("r+b") as file:
         os.fsync(file.fileno())

@@ -34,13 +34,16 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing", aske
     `asked` are keys of cells that an earlier command was to run again, and did not come to (Begun.again). A row that
     cannot be read counts as none; `store.unreadable` then says why.
     """
-    kept, replaced = Stored(store), set()
-    for one in planned:
-        if row := store.read(one.key):
-            if one.key in asked or _is_wanted_again(row, again):
-                replaced.add(one.key)
+    kept, replaced, statuses = Stored(store), set(), dict[str, CellStatus]()
+    for key in store.in_storage_order(one.key for one in planned):
+        if row := store.read(key):
+            if key in asked or _is_wanted_again(row, again):
+                replaced.add(key)
             else:
-                kept.add(row)
+                statuses[key] = CellStatus(row["status"])
+    for one in planned:
+        if one.key in statuses:
+            kept.statuses[one.key] = statuses[one.key]
     return Due([p for p in planned if p.key not in kept], kept, frozenset(replaced))
 
 

@@ -41,6 +41,7 @@ from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
 from harness.running.fastest import Tried, settled
 from harness.running.fleet import Fleet
+from harness.running.packing import Packing
 from harness.running.runner import Runner
 
 
@@ -321,6 +322,7 @@ def _run_part(
             | _named(part, planned, named, loaded)
         )
         _run_studies(named, store.folder, again == "everything", hears)
+        packing = Packing(store, hears)
         found, begun, old = begin(planned, store, again)
         if swept := [*old, *sweep_below(store.folder)]:
             hears.told(f"{store.folder}: removed {plural(len(swept), 'file')} that killed commands left")
@@ -328,7 +330,7 @@ def _run_part(
             hears.wrong(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
-        rows, told = Stored(store), (hears.cell, hears.hears_builds, threading.RLock())
+        rows, told = Stored(store), (packing.cell, hears.hears_builds, threading.RLock())
 
         def work(executor: Executor, cells: Sequence[Planned], where: dict[str, Any]) -> None:
             said = ChainMap(where, environment)

@@ -18,13 +18,16 @@ from harness import spreading
 from harness.contract import FirsthitError, Surface, Truth
 from harness.oracle import cache, first_hits
 from harness.results import plan_file, sealed
+from harness.results.store import Store
+from harness.verifying.columns import columns_of, groups_of
 from harness.verifying.model import Wrong
-from harness.verifying.one import FAMILY, Files, Held, Sampled, checked, family_anew, hold_anew, row_of
+from harness.verifying.one import FAMILY, Held, Place, Rows, Sampled, checked, family_anew, hold_anew, row_of
 from harness.verifying.truth import Rays, rays_for
 
 CHECKS = {
     "file": "it can be read, its checksum holds, and it does not contradict itself",
     "stated": "key, slot and columns follow from the identity",
+    "columns": "the columns of a Parquet part, which reports read, are those of its rows",
     "times": "times follow from their samples",
     "answers": "counts and errors follow from the answers ray by ray",
     "truth": "the truth certified anew is the one it was judged by",
@@ -72,7 +75,7 @@ class Verified:
         self.rows += 1
         self.checked.update(held.checked)
         self.not_checked.update(held.not_checked)
-        self.failing += [Failing(held.file, held.slot, check, wrong) for check, wrong in held.failing]
+        self.failing += [Failing(held.place.file, held.slot, check, wrong) for check, wrong in held.failing]
 
 
 def folders_of(folder: Path) -> list[Path]:
@@ -107,7 +110,8 @@ def verify(
     FirsthitError where a folder is no run.
     """
     found = Verified(seed=seed)
-    chunks = [chunk for one in folders for folder in folders_of(one) for chunk in _chunks(folder, found)]
+    every = [folder for one in folders for folder in folders_of(one)]
+    chunks = [chunk for folder in every for chunk in _chunks(folder, found)]
     number = sum(len(chunk.keys) for chunk in chunks)
     held: list[Held] = []
     for start in range(0, len(chunks), AT_ONCE):
@@ -120,21 +124,34 @@ def verify(
         held[k] = held[k].with_anew(anew)
     for one in held:
         found.add(one)
+    _columns(every, found)
     return found
 
 
-def _chunks(folder: Path, found: Verified) -> list[Files]:
-    """Return a folder's files of rows in chunks, in their order; note what its plan names twice, or has no row."""
+def _chunks(folder: Path, found: Verified) -> list[Rows]:
+    """Return a folder's rows in chunks, as they lie; note damaged parts, and what the plan names twice or in vain."""
     plan = _plan(folder)
     listed = [*plan["cells"], *plan.get("families", ())]
     slots = {cell["key"]: cell["slot"] for cell in listed}
     for slot, count in Counter(cell["slot"] for cell in listed).items():
         if count > 1:
             found.failing.append(Failing(folder / "plan.json", slot, "file", Wrong("cells", f"{count} cells", "one")))
-    keys = sorted(file.stem for file in (folder / "cells").glob("*.json"))
+    store = Store(folder)
+    for name, why in store.parts.problems().items():
+        found.failing.append(Failing(folder / name, "", "file", Wrong("the part", why, "rows")))
+    keys = store.in_storage_order(store.keys())
     found.missing += len(slots.keys() - set(keys))
-    parts = [keys[k : k + CHUNK] for k in range(0, len(keys), CHUNK)]
-    return [Files(folder, tuple(part), {key: slots[key] for key in part if key in slots}) for part in parts]
+    chunks = [keys[k : k + CHUNK] for k in range(0, len(keys), CHUNK)]
+    state = store.parts.state()
+    return [Rows(folder, state, tuple(own), {key: slots[key] for key in own if key in slots}) for own in chunks]
+
+
+def _columns(folders: Iterable[Path], found: Verified) -> None:
+    """Hold the columns of parts against their rows."""
+    groups = [group for folder in folders for group in groups_of(folder)]
+    for rows, wrong in spreading.answers(columns_of, groups):
+        found.checked["columns"] += rows
+        found.failing += [Failing(file, slot, "columns", one) for file, slot, one in wrong]
 
 
 def _anew(held: list[Held], chosen: list[int], tell: Callable[[str], None]) -> Iterator[tuple[int, Held]]:
@@ -149,16 +166,16 @@ def _anew(held: list[Held], chosen: list[int], tell: Callable[[str], None]) -> I
     for name, numbers in sorted(sharing.items()):
         tell(f"certifying [{done + 1}/{len(chosen)}] {held[numbers[0]].slot}")
         done += len(numbers)
-        files = [held[k].file for k in numbers]
+        places = [held[k].place for k in numbers]
         if name.startswith(FAMILY):
-            yield from zip(numbers, _of_family(files), strict=True)
+            yield from zip(numbers, _of_family(places), strict=True)
             continue
-        tried = Held(files[0], "")
+        tried = Held(places[0], "")
         truth = _certified(tried) if name else None
         if tried.failing:  # the row that was asked for them names rays that are none, and so do the others
             yield from ((k, tried) for k in numbers)
             continue
-        parts = [Sampled(tuple(files[k : k + CHUNK]), truth) for k in range(0, len(files), CHUNK)]
+        parts = [Sampled(tuple(places[k : k + CHUNK]), truth) for k in range(0, len(places), CHUNK)]
         answers = spreading.answers(hold_anew, parts)
         yield from zip(numbers, itertools.chain.from_iterable(answers), strict=True)
 
@@ -168,14 +185,14 @@ def _certified(tried: Held) -> Truth | None:
     found: list[Truth] = []
 
     def certify() -> Iterable[Wrong]:
-        found.append(first_hits(*rays_for(row_of(tried.file))))
+        found.append(first_hits(*rays_for(row_of(tried.place))))
         return ()
 
     tried.check("truth", certify)
     return found[0] if found else None
 
 
-def _of_family(files: Iterable[Path]) -> list[Held]:
+def _of_family(places: Iterable[Place]) -> list[Held]:
     """Hold rows of one family against the truth of its rays, which is certified once."""
     known: dict[str, Truth] = {}
 
@@ -185,4 +202,4 @@ def _of_family(files: Iterable[Path]) -> list[Held]:
             known[name] = first_hits(surface, rays)
         return known[name]
 
-    return [family_anew(file, certified) for file in files]
+    return [family_anew(place, certified) for place in places]

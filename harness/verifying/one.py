@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 
 from harness.contract import FirsthitError, Surface, Truth
 from harness.oracle import cache
 from harness.results import sealed
+from harness.results.parts import State
 from harness.results.store import Row, Store
 from harness.verifying import answers, rungs, stated, times
 from harness.verifying import truth as truths
@@ -21,10 +23,28 @@ NO_CHECKSUM = "it has no checksum: a version before checksums wrote it, or it wa
 
 
 @dataclass(frozen=True)
-class Files:
-    """Name files of rows in a folder by their keys, and the slots that its plan says of some."""
+class Place:
+    """Tell where a row is: in which folder, and by which key. `parts` are the parts there (Parts.state)."""
 
     folder: Path
+    parts: State
+    key: str
+
+    @property
+    def store(self) -> Store:
+        return _store(self.folder, self.parts)
+
+    @property
+    def file(self) -> Path:
+        return self.store.place(self.key)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Name rows of a folder by their keys, and the slots that its plan says of some. `parts` are as Place has them."""
+
+    folder: Path
+    parts: State
     keys: tuple[str, ...]
     slots: Mapping[str, str]
 
@@ -33,7 +53,7 @@ class Files:
 class Sampled:
     """Name rows that share a truth, which was certified anew; None where none of them says its rays."""
 
-    files: tuple[Path, ...]
+    places: tuple[Place, ...]
     truth: Truth | None
 
 
@@ -48,7 +68,7 @@ class Held:
     truth: the same text in all rows that share their truth; "" where the row does not say its rays
     """
 
-    file: Path
+    place: Place
     slot: str
     checked: list[str] = field(default_factory=list)
     not_checked: list[tuple[str, str]] = field(default_factory=list)
@@ -83,21 +103,32 @@ class Held:
         )
 
 
-def checked(files: Files) -> list[Held]:
+def _store(folder: Path, parts: State) -> Store:
+    """Return the store of a folder; one with parts is opened once, since that takes as long as reading 1,000 rows."""
+    return _with_parts(folder, parts) if parts else Store(folder)
+
+
+@lru_cache(maxsize=4)
+def _with_parts(folder: Path, parts: State) -> Store:
+    del parts  # decides whether what was opened before is still right
+    return Store(folder)
+
+
+def checked(rows: Rows) -> list[Held]:
     """Read rows, and check all of them that needs no truth but what their folder keeps."""
-    return [_checked(Store(files.folder), key, files.slots.get(key)) for key in files.keys]
+    return [_checked(Place(rows.folder, rows.parts, key), rows.slots.get(key)) for key in rows.keys]
 
 
-def _checked(store: Store, key: str, slot: str | None) -> Held:
-    file = store.folder / "cells" / f"{key}.json"
-    row = store.read(key, older=True)
+def _checked(place: Place, slot: str | None) -> Held:
+    store, key = place.store, place.key
+    file, row = store.place(key), store.read(key, older=True)
     if row is None:
         why = store.unreadable.get(key, "it is gone").removeprefix(f"{file} is ")
-        return Held(file, slot or "", failing=[("file", Wrong("the file", why, "a row"))])
-    held = Held(file, row["slot"], certifiable=bool(row.get("accuracy") or row.get("rungs")))
+        return Held(place, slot or "", failing=[("file", Wrong("the file", why, "a row"))])
+    held = Held(place, row["slot"], certifiable=bool(row.get("accuracy") or row.get("rungs")))
     if slot is not None and row["slot"] != slot:
         held.failing.append(("file", Wrong("slot", row["slot"], slot)))
-    if sealed.is_sealed(file):
+    if sealed.has_seal(store.text(key)):
         held.checked.append("file")
     else:
         held.not_checked.append(("file", NO_CHECKSUM))
@@ -129,28 +160,28 @@ def _by_folder(store: Store, row: Row, found: list[answers.Arrays], held: Held) 
     return truths.truth(row, found[0] if found else None, surface, rays, stored)
 
 
-def row_of(file: Path) -> Row:
+def row_of(place: Place) -> Row:
     """Read a row that could be read before. Raises FirsthitError where it is gone."""
-    row = Store(file.parent.parent).read(file.stem, older=True)
+    row = place.store.read(place.key, older=True)
     if row is None:
-        raise FirsthitError(f"{file} was changed while it was checked")
+        raise FirsthitError(f"{place.file} was changed while it was checked")
     return row
 
 
 def hold_anew(sampled: Sampled) -> list[Held]:
     """Hold rows against the truth that was certified anew for them."""
-    return [_anew(file, sampled.truth) for file in sampled.files]
+    return [_anew(place, sampled.truth) for place in sampled.places]
 
 
-def _anew(file: Path, truth: Truth | None) -> Held:
-    held = Held(file, "")
+def _anew(place: Place, truth: Truth | None) -> Held:
+    held = Held(place, "")
 
     def check() -> Iterable[Wrong]:
-        row = row_of(file)
+        row = row_of(place)
         surface, rays = truths.rays_for(row)
         assert truth is not None
         try:
-            kept = answers.arrays_of(file.parent.parent, row)
+            kept = answers.arrays_of(place.folder, row)
         except (CannotTell, OSError, ValueError):  # which the check of answers tells
             kept = None
         return truths.truth(row, kept, surface, rays, truth)
@@ -159,8 +190,8 @@ def _anew(file: Path, truth: Truth | None) -> Held:
     return held
 
 
-def family_anew(file: Path, certify: Callable[[Surface, Rays], Truth]) -> Held:
+def family_anew(place: Place, certify: Callable[[Surface, Rays], Truth]) -> Held:
     """Hold the row of a family against the truth of the family's rays."""
-    held = Held(file, "")
-    held.check("truth", lambda: rungs.rungs(row_of(file), certify))
+    held = Held(place, "")
+    held.check("truth", lambda: rungs.rungs(row_of(place), certify))
     return held

@@ -18,33 +18,6 @@
 #define SINGLE 2
 #define OPEN 3
 
-// The camera. A ray's parameter is its depth, or what the depth exceeds `middle` by: at depth s, the ray (x, y) is at
-// eye + s (forward + x right + y up) = origin + middle (x right + y up) + (s - middle) (forward + x right + y up).
-STRUCT(Frame) struct Frame {
-    vec3 eye; vec3 forward; vec3 right; vec3 up;
-    vec3 normal;     // the depth of a point p is the inner product of p - eye and this
-    vec3 origin;     // the point at depth `middle` on the camera's axis
-    real middle;     // the depth of the domain's centre
-    real far;        // the largest depth in the domain
-    real pixel;      // the larger side of a pixel at depth 1
-};
-
-Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
-    Frame frame;
-    frame.eye = eye;
-    frame.forward = forward;
-    frame.right = right;
-    frame.up = up;
-    frame.normal = depth_normal(forward, right, up);
-    frame.middle = inner_product(difference(DOMAIN_CENTER, eye), frame.normal);
-    frame.origin = advanced_ray(make_ray(eye, forward), frame.middle).origin;
-    frame.far = frame.middle + DOMAIN_RADIUS * sqrt(inner_product(frame.normal, frame.normal));
-    real squared_right = inner_product(right, right);
-    real squared_up = inner_product(up, up);
-    frame.pixel = 2.0 * sqrt(max(squared_right, squared_up)) / real(size);
-    return frame;
-}
-
 // Bounds of a fit's errors: `off` grows with a piece's depth, `noise` does not, `unit` is one halving's per degree.
 STRUCT(Errors) struct Errors { real off; real noise; real unit; };
 

@@ -95,10 +95,10 @@ def common(values: pd.Series) -> Any:
 
 def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the contenders of each surface's fullest scene, on the device that has most rows of all."""
-    rows = derive.contenders(frame)
+    rows = derive.contenders(frame, _COLUMNS)
     if rows.empty:
         return rows
-    rows = derive.on_fullest_device(rows)[_COLUMNS]
+    rows = derive.on_fullest_device(rows)
     in_plan_order = rows.sort_index()
     fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
     return rows[rows["comparison"].isin(fullest)]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
 import pandas as pd
 
 from harness.contract import BASELINE, FROM_ORIGIN, CellStatus
@@ -29,7 +30,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     above 1, which sets `peak_too_low` instead.
     """
     answers = frame["answers"].astype(bool)
-    frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY})
+    frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY if name in frame})
     for name in _DROWNED:  # older rows do not count these rays apart
         frame[name] = frame[name].mask(frame[name].isna() & frame["misses"].notna(), 0)
     seconds = frame["median_ms"] / 1e3
@@ -60,10 +61,24 @@ def kinds(rows: pd.DataFrame) -> tuple[str, ...]:
     return KINDS if rows["invalid"].fillna(0).sum() > 0 else tuple(kind for kind in KINDS if kind != "invalid")
 
 
-def contenders(frame: pd.DataFrame) -> pd.DataFrame:
-    """Select the timed rows of methods that answer, fastest first within their group."""
-    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
-    return rows.sort_values([*GROUP, "median_ms"], kind="stable")
+def is_contender(frame: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether it was timed and is of a method that answers.
+
+    Returns bool with the index of `frame`.
+    """
+    return (frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["median_ms"].notna()
+
+
+def contenders(frame: pd.DataFrame, names: Sequence[str] | None = None) -> pd.DataFrame:
+    """Select the timed rows of methods that answer, fastest first within their group.
+
+    They have all columns or, where the frame is large and few are wanted, those of `names`.
+    """
+    there = is_contender(frame).to_numpy()
+    order = frame.loc[there, [*GROUP, "median_ms"]].reset_index(drop=True)
+    order = order.sort_values([*GROUP, "median_ms"], kind="stable")
+    told = frame if names is None else frame[list(names)]
+    return told.take(np.flatnonzero(there)[order.index.to_numpy()])
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:
@@ -169,7 +184,7 @@ def _front(frame: pd.DataFrame) -> pd.Series:
 
     Returns boolean with the index of `frame`; False for the other rows.
     """
-    rows = contenders(frame)
+    rows = contenders(frame, [*GROUP, "median_ms", "error_max", "wrong_rays"])
     rows = rows[all_right(rows) & rows["error_max"].notna()].sort_values([*GROUP, "median_ms", "error_max"])
     smallest_so_far = rows.groupby(GROUP)["error_max"].cummin()
     before = smallest_so_far.groupby([rows[name] for name in GROUP]).shift(fill_value=float("inf"))

@@ -8,9 +8,13 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
+from operator import truediv
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from harness.results import timings
 from harness.results.timings import Ratio
@@ -38,6 +42,17 @@ def times_over(row: Any, other: Any) -> float:
     """Return the median of `row`'s time over `other`'s in the rounds that timed both; NaN where no round did."""
     paired = ratio(row, other)
     return math.nan if paired is None else paired.median
+
+
+def is_no_faster(row: Any, other: Any) -> bool:
+    """Tell whether it is known without a test that `row` is not faster than `other` in the rounds that timed both.
+
+    Both had the same rounds of one run, and the median of `row`'s time over `other`'s is 1 or more.
+    """
+    if wording.absent(row.rounds) or row.rounds != other.rounds or not _in_one_run(row, other):
+        return False
+    over = sorted(map(truediv, row.samples_ms, other.samples_ms))
+    return bool(0.5 * (over[(len(over) - 1) // 2] + over[len(over) // 2]) >= 1.0)
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
@@ -72,14 +87,52 @@ def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.
 
     The result has the index of `rows`; NaN where `firsts` has no such row or shares no round with it.
     """
+    timed = rows.loc[rows["median_ms"].notna()]
+    return _to_first(timed, firsts, keys, lambda own, first: first / own, times_over).reindex(rows.index)
+
+
+def above_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.Series:
+    """Return by how many ms each of `rows` takes longer than the row of `firsts` with the same `keys`, as `above`.
+
+    The result has the index of `rows`; NaN where `firsts` has no such row or shares no round with it.
+    """
+    return _to_first(rows, firsts, keys, lambda own, first: own - first, lambda first, row: above(row, first)).reindex(
+        rows.index
+    )
+
+
+def _to_first(
+    rows: pd.DataFrame,
+    firsts: pd.DataFrame,
+    keys: list[str],
+    together: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]],
+    alone: Callable[[Any, Any], float],
+) -> pd.Series:
+    """Compare each of `rows` with the row of `firsts` with the same `keys`; rows without one are left out.
+
+    Rows that have all their rounds in common with it are compared at once, by the median of what `together` makes of
+    the times of rows [n, rounds] and of the first one [rounds]. The others are compared by `alone`, of the first row
+    and the other one.
+    """
     told = [*keys, *COLUMNS]
     by_key = {tuple(getattr(row, key) for key in keys): row for row in firsts[told].itertuples()}
-    found = {}
-    for row in rows.loc[rows["median_ms"].notna(), told].itertuples():
-        first = by_key.get(tuple(getattr(row, key) for key in keys))
-        if first is not None:
-            found[row.Index] = times_over(first, row)
-    return pd.Series(found, dtype="float64").reindex(rows.index)
+    found = pd.Series(math.nan, rows.index, dtype="float64")
+    if rows.empty:
+        return found
+    values = found.to_numpy(copy=True)
+    session, rounds, samples = (rows[name].to_numpy() for name in COLUMNS)
+    for key, places in rows.groupby(keys, sort=False).indices.items():
+        first = by_key.get(key)
+        if first is None or wording.absent(first.session) or wording.absent(first.rounds) or not first.samples_ms:
+            continue
+        alike = [at for at in places if rounds[at] == first.rounds and session[at] == first.session and samples[at]]
+        if alike:
+            own = np.array([samples[at] for at in alike], np.float64)
+            values[alike] = np.median(together(own, np.array(first.samples_ms, np.float64)), axis=1)
+        others = sorted(set(places.tolist()).difference(alike))
+        for at, row in zip(others, rows[told].take(others).itertuples(), strict=True) if others else ():
+            values[at] = alone(first, row)
+    return pd.Series(values, rows.index)
 
 
 def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:

@@ -20,5 +20,5 @@ def base_of(name: str) -> str:
 def printed_alone(frame: pd.DataFrame) -> pd.DataFrame:
     """Drop the rows of a surface's other forms where the frame has the surface as printed too."""
     there = set(frame["surface"])
-    further = frame["surface"].map(lambda name: base_of(name) != name and base_of(name) in there)
-    return frame[~further.astype(bool)]
+    further = {name for name in there if base_of(name) != name and base_of(name) in there}
+    return frame[~frame["surface"].isin(further)] if further else frame

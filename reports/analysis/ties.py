@@ -81,6 +81,8 @@ def _best(rows: list[Any]) -> Any:
     for row in rows[1:]:
         if row.samples_ms and first.samples_ms and min(row.samples_ms) >= max(first.samples_ms):
             continue  # it is faster in no round
+        if rounds.is_no_faster(row, first):
+            continue
         paired = ratio(row, first)  # whatever the medians: they may be of other rounds
         if paired is not None and verdict(paired) == FASTER:
             first = row
@@ -110,7 +112,7 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     `tied` lists the rows of other methods that are not told to be slower, of each method its fastest. `methods` is
     the number of methods timed in the group.
     """
-    rows = derive.contenders(frame)
+    rows = derive.contenders(frame, [*derive.GROUP, *_TOLD, "wrong_rays"])
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
     right = rows[derive.all_right(rows)]
     groups = _groups(right)
@@ -120,10 +122,10 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
         [first.Index for first in firsts],
         dtype=object,
     )
-    return right.loc[found.index].assign(tied=found).join(methods, on=derive.GROUP)
+    return frame.loc[found.index].assign(tied=found).join(methods, on=derive.GROUP)
 
 
 def fastest(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row of each group, whether it answers every ray rightly or not."""
-    rows = derive.contenders(frame)
-    return rows.loc[[_best(own).Index for own in _groups(rows)]]
+    rows = derive.contenders(frame, [*derive.GROUP, *_TOLD])
+    return frame.loc[[_best(own).Index for own in _groups(rows)]]

@@ -50,6 +50,8 @@ class ViewSet:
 
 def view_sets(frame: pd.DataFrame) -> list[ViewSet]:
     """Return a set for each of SCENE's combinations that was timed from at least FEWEST views, in the plan's order."""
+    if frame["view"].nunique() < FEWEST:
+        return []
     rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
     rows = _with_rates(rows.assign(view_set=rows["view_set"].fillna(NAMED), angle=90.0 - rows["elevation"]))
     sets = []
@@ -64,7 +66,7 @@ def one_view_of_each(frame: pd.DataFrame) -> pd.DataFrame:
     """Keep only the first view of each set of more than MOST_LISTED views, for tables that list scenes one by one."""
     views = frame.groupby(["surface", "view_set"], dropna=False)["view"]
     large = frame["view_set"].notna() & (views.transform("nunique") > MOST_LISTED)
-    return frame[~large | (frame["view"] == views.transform("first"))]
+    return frame[~large | (frame["view"] == views.transform("first"))] if large.any() else frame
 
 
 def _with_rates(rows: pd.DataFrame) -> pd.DataFrame:

@@ -61,14 +61,14 @@ def explorer(rows: pd.DataFrame) -> Explorer | None:
 
     Of more rows than POINTS whole comparisons are kept, in the run's order. Returns None for fewer than two rows.
     """
-    timed = rows.loc[derive.contenders(rows).index.sort_values()]
-    timed = timed[timed["error_max"].notna()]
+    there = derive.is_contender(rows) & rows["error_max"].notna()
+    timed = rows.loc[there, ["comparison"]]
     if len(timed) < 2:
         return None
     order = list(dict.fromkeys(timed["comparison"]))
     counts = timed["comparison"].value_counts()[order].cumsum()
     kept = set(counts[counts <= POINTS].index) or {order[0]}
-    shown = timed[timed["comparison"].isin(kept)]
+    shown = rows[there & rows["comparison"].isin(kept)]
     note = (
         ""
         if len(shown) == len(timed)

@@ -37,6 +37,9 @@ def speedup(rows: pd.DataFrame) -> str:
     )
 
 
+CHOSEN_BY = ("method", "variant", "baseline", "front", "answers")  # columns that `worth_printing` reads
+
+
 def worth_printing(finished: pd.DataFrame) -> pd.DataFrame:
     """Return all `finished` rows if there are at most ROW_LIMIT of them.
 

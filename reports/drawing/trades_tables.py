@@ -60,6 +60,8 @@ def devices(frame: pd.DataFrame) -> Table | None:
 
     None where there is nothing to compare. Only variants that are right on both devices are compared.
     """
+    if frame["device"].nunique() < 2:
+        return None
     rows = derive.contenders(frame)
     fullest = str(derive.on_fullest_device(rows)["device"].iloc[0])
     rows = rows[derive.all_right(rows)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -55,6 +54,11 @@ class Axis:
     expected: str = ""  # says what an exponent means
 
 
+_READ = [
+    *("run", "key", "slot", "comparison", "method", "variant", "label", "method_label", "answers", "baseline"),
+    *("surface", "surface_title", "scene", "view", "size", "samples_per_pixel", "stage", "precision", "device"),
+    *("degree", "instances", "prepass", "origin", "median_ms", "wrong_rays", "accuracy_rays", *rounds.COLUMNS),
+]  # columns: a frame of 10^6 rows and all columns is not copied for this
 _ELSE = ("device", "precision", "stage", "samples_per_pixel")
 AXES = (
     Axis(
@@ -110,7 +114,7 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
     """
     if axis.needs not in frame:
         return frame.head(0), {}
-    rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
+    rows = frame.loc[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna(), _READ]
     rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
     rows = rows[rows["x"] > 0]
     above_floor = _over_floor(rows, axis)
@@ -139,12 +143,7 @@ def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
     floors = derive.floor_rows(rows)
     if not axis.above_floor or floors.empty:
         return None
-    by_group = {tuple(getattr(row, name) for name in derive.GROUP): row for row in floors.itertuples()}
-    found = {}
-    for row in rows.itertuples():
-        floor = by_group.get(tuple(getattr(row, name) for name in derive.GROUP))
-        found[row.Index] = math.nan if floor is None else rounds.above(row, floor)
-    return pd.Series(found, dtype="float64")
+    return rounds.above_first(rows, floors, derive.GROUP)
 
 
 def _line(axis: Axis) -> list[str]:

@@ -34,7 +34,8 @@ _NEEDED = [
 def sections(material: Material) -> list[Section]:
     """Make the section; [] unless two variants or more of one comparison were timed in the same rounds."""
     frame = material.listed
-    rows = tables.worth_printing(derive.contenders(frame))[_NEEDED]
+    others = [name for name in tables.CHOSEN_BY if name not in _NEEDED]
+    rows = tables.worth_printing(derive.contenders(frame, [*_NEEDED, *others]))[_NEEDED]
     by_scene = {scene: group for scene, group in rows.groupby("comparison", sort=False)}
     scenes = [by_scene[scene] for scene in dict.fromkeys(frame["comparison"]) if scene in by_scene]  # the plan's order
     shown = scenes[: max(1, int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum()))]
@@ -65,7 +66,7 @@ def _matrix(frame: pd.DataFrame) -> Matrix | None:
 
     The methods that are fastest in most scenes are on the left. None where no scene has a pair of methods.
     """
-    rows = derive.contenders(frame)[_NEEDED]
+    rows = derive.contenders(frame, _NEEDED)
     if rows.empty:
         return None
     rows = derive.on_fullest_device(rows)

@@ -28,7 +28,7 @@ PALE = 0.68  # how far the colour of a square is from its method's, towards whit
 
 def sections(material: Material) -> list[Section]:
     """Make the section; [] where no row was timed."""
-    if derive.contenders(material.listed).empty:
+    if not derive.is_contender(material.listed).any():
         return []
     leading = ties.leaders(material.listed)
     found = material.choices
@@ -49,7 +49,7 @@ def sections(material: Material) -> list[Section]:
         blocks.append(winners_table(material.listed, leading))
     elsewhere = trades_tables.devices(material.listed)
     blocks += [elsewhere] if elsewhere is not None else []
-    several = len(derive.contenders(material.listed).drop_duplicates(derive.GROUP)) > ONE_BY_ONE
+    several = len(derive.contenders(material.listed, derive.GROUP).drop_duplicates()) > ONE_BY_ONE
     if several and len(leading):
         details.append(wins_table(leading))
     details += [Text(f"{ties.RULE}."), *([winners_table(material.listed, leading)] if len(found) > FEW else [])]
@@ -82,7 +82,7 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
     """
     frame = material.listed
     told = [*derive.GROUP, "method", "variant", "label", "wrong_rays", "accuracy_rays"]
-    rows = derive.contenders(frame)[told]
+    rows = derive.contenders(frame, told)
     if scenes_of is not None:
         rows = rows[rows["comparison"].isin(list(scenes_of))]
     named, safest = (
@@ -157,7 +157,7 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
 
     `leading` is what ties.leaders returns.
     """
-    rows = derive.contenders(frame)
+    rows = derive.contenders(frame, ["variant", "label", "method", "method_label", "baseline"])
     fastest = ties.fastest(frame)
     safest = {(r.comparison, r.device, r.precision): r for r in leading.itertuples()}
     body: list[tuple[Any, ...]] = []

@@ -12,6 +12,7 @@ from pathlib import Path
 import pandas as pd
 
 from harness.contract import FirsthitError
+from reports.reading.columns import Columns
 from reports.reading.run import Plan, Run, Unreadable
 
 
@@ -37,6 +38,7 @@ def together(folder: Path, plan: Plan, runs: Sequence[Run], missing: Sequence[Un
         tuple(slot for run in runs for slot in run.not_run),
         {name: rows for run in runs for name, rows in run.studies.items()},
         {run.plan.name: run.folder for run in runs},
+        Columns.together([run.columns for run in runs]),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,11 +10,15 @@ from typing import Any
 
 import pandas as pd
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 from harness.escaping import cell
 from harness.results.schema import DERIVED, SCHEMA, Field, Kind
+from reports.reading.columns import BATCH, Columns
+
+ACCURACY = frozenset(field.name for field in SCHEMA if field.path[0] == "accuracy")
 
 _DTYPES: dict[Kind, str] = {
     "text": "object",
@@ -42,23 +47,57 @@ def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFr
     return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(fields, columns, strict=True)})
 
 
-def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] = (), bare: Sequence[str] = ()) -> None:
+def write(
+    frame: pd.DataFrame,
+    csv: Path,
+    parquet: Path,
+    more: Sequence[Field] = (),
+    bare: Sequence[str] = (),
+    rest: Columns | None = None,
+) -> None:
     """Write every column of every cell, as CSV and as Parquet. Raises OSError where a file cannot be written.
 
-    The columns are those of SCHEMA and DERIVED, and then `more`; CSV has all but `bare`. In Parquet time samples are a
-    list and missing values are nulls. In CSV lists and objects are JSON, missing values are empty, and no text is a
-    formula of a spreadsheet (harness.escaping.cell).
+    The columns are those of SCHEMA and DERIVED, and then `more`; CSV has all but `bare`. Those that `frame` lacks, and
+    samples, are read of `rest`, which has the same rows; accuracy is null there where a method does not answer. In
+    Parquet time samples are a list and missing values are nulls. In CSV lists and objects are JSON, missing values are
+    empty, and no text is a formula of a spreadsheet (harness.escaping.cell).
     """
     schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED, *more)])
-    table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
-    pq.write_table(table, parquet, compression="zstd")
-    samples = pa.array([None if value is None else json.dumps(value) for value in frame["samples_ms"]], pa.string())
-    at = schema.get_field_index("samples_ms")
-    flat = table.set_column(at, "samples_ms", samples).drop_columns(list(bare))
-    for place, field in enumerate(flat.schema):
+    lacking = [name for name in schema.names if name not in frame.columns or name == "samples_ms"]
+    names = lacking if rest is not None else []
+    own = pa.schema([field for field in schema if field.name not in names])
+    flat = pa.schema(
+        [(f.name, f.type if f.name != "samples_ms" else pa.string()) for f in schema if f.name not in bare]
+    )
+    told = pa_csv.WriteOptions(quoting_style="needed")
+    others = rest.batches(names) if rest is not None and names else itertools.repeat(None)
+    with (
+        pq.ParquetWriter(parquet, schema, compression="zstd") as packed,
+        pa_csv.CSVWriter(csv, flat, write_options=told) as plain,
+    ):
+        for start, more_of in zip(range(0, max(len(frame), 1), BATCH), others, strict=False):
+            part = frame.iloc[start : start + BATCH]
+            table = pa.Table.from_pandas(part, schema=own, preserve_index=False).replace_schema_metadata(None)
+            answers = pa.array(part["answers"], pa.bool_()) if names else None
+            for name in names:
+                values = more_of.column(name)
+                if name in ACCURACY:
+                    values = pc.if_else(answers, values, pa.scalar(None, values.type))
+                table = table.append_column(name, values)
+            table = table.select(schema.names)
+            packed.write_table(table, row_group_size=BATCH)
+            plain.write_table(_flat(table, flat))
+
+
+def _flat(table: pa.Table, schema: pa.Schema) -> pa.Table:
+    """Return a table as CSV holds it, with the columns of `schema`."""
+    lists = [None if value is None else json.dumps(value) for value in table.column("samples_ms").to_pylist()]
+    table = table.set_column(table.schema.get_field_index("samples_ms"), "samples_ms", pa.array(lists, pa.string()))
+    table = table.select(schema.names)
+    for place, field in enumerate(table.schema):
         if field.type == pa.string():
-            flat = flat.set_column(place, field.name, _no_formulas(flat.column(place)))
-    pa_csv.write_csv(flat, csv, pa_csv.WriteOptions(quoting_style="needed"))
+            table = table.set_column(place, field.name, _no_formulas(table.column(place)))
+    return table
 
 
 def without_formulas(frame: pd.DataFrame) -> pd.DataFrame:

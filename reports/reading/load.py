@@ -4,49 +4,54 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
+import pyarrow as pa
 
 from harness.contract import BASELINE, FirsthitError, suggestion
 from harness.results import archive, plan_file, study_file
-from harness.results.schema import FAMILY, RUNG, SCHEMA, flattener
+from harness.results.compaction import FAMILY as FAMILY_COLUMN
+from harness.results.parts import Part, damage
+from harness.results.schema import FAMILY, RUNG, flattener
 from harness.results.sealed import problem
-from harness.results.store import read_row
+from harness.results.store import Row, Store, row_of
 from reports import labels
-from reports.reading import collect, export
+from reports.reading import collect, columns, export
+from reports.reading.columns import Columns
 from reports.reading.run import Facts, Plan, Run, Unreadable
 
 
-def load(folder: Path) -> Run:
-    """Read the run in `folder`, or those that it collects.
+def load(folder: Path, unread: Collection[str] = ()) -> Run:
+    """Read the run in `folder`, or those that it collects; the frame of rows has not the columns `unread`.
 
     Raises FirsthitError where it is no run folder, or where nothing is finished.
     """
     plan = plan_of(folder)
     if not plan.include:
-        return load_one(folder, plan)
+        return load_one(folder, plan, unread)
     runs: list[Run] = []
     missing: list[Unreadable] = []
     for name in plan.include:
         try:
-            runs.append(load(folder.parent / name))
+            runs.append(load(folder.parent / name, unread))
         except FirsthitError as error:
             missing.append(Unreadable(name, str(error)))
     return collect.together(folder, plan, runs, missing)
 
 
 @contextlib.contextmanager
-def opened(run: Path) -> Iterator[Run]:
-    """Read a run from its folder or from an archive of it, whose files are there while the block runs.
+def opened(run: Path, unread: Collection[str] = ()) -> Iterator[Run]:
+    """Read a run as `load` does, from its folder or from an archive of it, whose files are there while the block runs.
 
     Raises FirsthitError as `load` does, and where an archive cannot be unpacked.
     """
     with archive.opened(run) as folder:
-        yield replace(load(folder), folder=run)
+        yield replace(load(folder, unread), folder=run)
 
 
 def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
@@ -95,46 +100,123 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
+@dataclass
+class _Found:
+    """Gather what the cells that a plan names say, in the plan's order."""
+
+    views: list[Row] = field(default_factory=list)  # that are not in a table yet
+    tables: list[pa.Table] = field(default_factory=list)
+    families: list[tuple[Any, ...]] = field(default_factory=list)
+    rungs: list[tuple[Any, ...]] = field(default_factory=list)
+    unreadable: list[Unreadable] = field(default_factory=list)
+    not_run: list[str] = field(default_factory=list)
+    places: list[tuple[int, int]] = field(default_factory=list)  # of each view: -1, or its part; and its place there
+
+    def view(self, row: Row) -> None:
+        """Add the row of a view."""
+        self.places.append((-1, len(self.views) + HELD * len(self.tables)))
+        self.views.append(row)
+        if len(self.views) == HELD:
+            self.tables.append(columns.held(self.views))
+            self.views = []
+
+    def columns(self, parts: Sequence[Part]) -> Columns:
+        """Return where the views lie."""
+        own = pa.concat_tables([*self.tables, columns.held(self.views)])
+        places = np.array(self.places, np.int64).reshape(-1, 2)
+        nothing = own.slice(0, 0)
+        pieces = (nothing if part.problem else part for part in parts)  # no row is read of a damaged one
+        return Columns((own, *pieces), (places[:, 0] + 1).astype(np.int32), places[:, 1])
+
+
 @_uncollected()
-def load_one(folder: Path, plan: Plan) -> Run:
-    """Read what the cells that `plan` names say. Raises FirsthitError where none of them is finished."""
-    rows: list[tuple[Any, ...]] = []
-    families: list[tuple[Any, ...]] = []
-    rungs: list[tuple[Any, ...]] = []
-    unreadable: list[Unreadable] = []
-    not_run: list[str] = []
-    for key, slot in plan.slots.items():
-        path = folder / "cells" / f"{key}.json"
+def load_one(folder: Path, plan: Plan, unread: Collection[str] = ()) -> Run:
+    """Read what the cells that `plan` names say, without the columns `unread`.
+
+    Raises FirsthitError where none of them is finished.
+    """
+    store = Store(folder)
+    while True:
         try:
-            document = read_row(path, key) | {"run": plan.name, "baseline": plan.baseline}
-            if document.get("family") is None:
-                rows.append(_VIEW(document))
+            return _load_one(store, plan, unread)
+        except columns.Refused as refused:  # then its rows are read one by one, as those of any damaged part
+            refused.part.problem = str(refused)
+
+
+def _load_one(store: Store, plan: Plan, unread: Collection[str]) -> Run:
+    """Do what `load_one` does. Raises columns.Refused where the columns of a part cannot be used."""
+    folder, found = store.folder, _Found()
+    own = set(store.files())
+    parts = store.parts.all()
+    which, places = store.parts.locate(np.array([key.encode() for key in plan.slots], dtype=np.bytes_))
+    ladders = [_families(part) for part in parts]
+    found.unreadable += [Unreadable(name, problem) for name, problem in store.parts.problems().items()]
+    for (key, slot), part, place in zip(plan.slots.items(), which.tolist(), places.tolist(), strict=True):
+        if part >= 0 and key not in own and not parts[part].problem and place not in ladders[part]:
+            found.places.append((part, place))
+            continue
+        try:
+            row = row_of(store.text(key), key)
+            if row.get("family") is None:
+                found.view(row)
             else:
-                ladder = _ladder(document, plan.facts)
-                families.append(_FAMILY(document))
-                rungs += ladder
+                ladder = _ladder(row, plan.facts)
+                found.families.append(_FAMILY(row | {"run": plan.name}))
+                found.rungs += ladder
         except FileNotFoundError:
-            not_run.append(slot)
+            found.not_run.append(slot)
         except (OSError, ValueError) as error:
-            unreadable.append(Unreadable(f"cells/{path.name}", f"{problem(error)} ({slot})"))
+            name = store.place(key).relative_to(folder).as_posix()
+            found.unreadable.append(Unreadable(name, f"{problem(error)} ({slot})"))
+    studies = _studies(folder, plan, found)
+    if not found.places and not found.families and not studies:
+        if plan.shard and not plan.slots:
+            raise FirsthitError(f"{folder} is{plan.part.replace(',', '')} of {plan.config}, which has no cell in it")
+        broken = found.unreadable
+        damaged = f" ({len(broken)} are unreadable: {broken[0].problem})" if broken else ""
+        raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
+    rows = found.columns(parts)
+    views = columns.frame(rows, {"run": plan.name, "baseline": plan.baseline}, unread)
+    return Run(
+        folder,
+        plan,
+        _named(views, plan),
+        _named(export.frame(FAMILY, found.families), plan),
+        export.frame(RUNG, found.rungs),
+        tuple(found.unreadable),
+        tuple(found.not_run),
+        studies,
+        {plan.name: folder},
+        rows,
+    )
+
+
+def _families(part: Part) -> frozenset[int]:
+    """Return the places of the rows of a part that are of families of hard rays."""
+    if part.problem:
+        return frozenset()
+    with damage():
+        told = part.file.read(columns=[FAMILY_COLUMN]).column(0).is_valid().to_numpy()
+    return frozenset(np.flatnonzero(told).tolist())
+
+
+def _studies(folder: Path, plan: Plan, found: _Found) -> dict[str, list[dict[str, Any]]]:
+    """Read the studies that a plan names."""
     studies: dict[str, list[dict[str, Any]]] = {}
     for name, key in plan.studies.items():
         path = folder / "studies" / f"{key}.json"
         try:
             studies[name] = study_file.read(path, name, key)["rows"]
         except FileNotFoundError:
-            not_run.append(f"study {name}")
+            found.not_run.append(f"study {name}")
         except (OSError, ValueError) as error:
-            unreadable.append(Unreadable(f"studies/{path.name}", f"{problem(error)} ({name})"))
-    if not rows and not families and not studies:
-        if plan.shard and not plan.slots:
-            raise FirsthitError(f"{folder} is{plan.part.replace(',', '')} of {plan.config}, which has no cell in it")
-        damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
-        raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
-    made = (export.frame(schema, found) for schema, found in ((SCHEMA, rows), (FAMILY, families)))
-    views, ladders = (labels.labelled(_as_told(frame, plan), plan.methods) for frame in made)
-    broken, missing = tuple(unreadable), tuple(not_run)
-    return Run(folder, plan, views, ladders, export.frame(RUNG, rungs), broken, missing, studies, {plan.name: folder})
+            found.unreadable.append(Unreadable(f"studies/{path.name}", f"{problem(error)} ({name})"))
+    return studies
+
+
+def _named(frame: pd.DataFrame, plan: Plan) -> pd.DataFrame:
+    """Return rows with the names by which readers know their methods and devices."""
+    return labels.labelled(_as_told(frame, plan), plan.methods)
 
 
 def _as_told(frame: pd.DataFrame, plan: Plan) -> pd.DataFrame:
@@ -191,5 +273,6 @@ def plan_of(folder: Path) -> Plan:
 
 
 _TEXTS = ("name", "title", "config", "config_text", "command", "created")
+HELD = 2_000  # rows that are made a table together
 _FACTS = ("title", "parameter", "harder", "why", "source")
-_VIEW, _FAMILY, _RUNG = map(flattener, (SCHEMA, FAMILY, RUNG))
+_FAMILY, _RUNG = map(flattener, (FAMILY, RUNG))

@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import BASELINE
+from reports.reading.columns import Columns
 
 
 @dataclass(frozen=True)
@@ -73,10 +74,11 @@ class Run:
 
     folder: Path
     plan: Plan
-    frame: pd.DataFrame  # SCHEMA: one row for each cell that is a view
+    frame: pd.DataFrame  # SCHEMA, or what was asked for: one row for each cell that is a view
     families: pd.DataFrame  # FAMILY: one row for each cell that is a family of hard rays
     rungs: pd.DataFrame  # RUNG: one row for each rung of the latter
     unreadable: tuple[Unreadable, ...]
     not_run: tuple[str, ...]  # slots
     studies: Mapping[str, list[dict[str, Any]]]  # rows by study
     folders: Mapping[str, Path]  # by the name of the run; several where this one collects others
+    columns: Columns  # of the rows of `frame`, those too that it lacks

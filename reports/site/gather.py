@@ -11,6 +11,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus, FirsthitError, digest
+from harness.results.store import Store
 from reports import labels, wording
 from reports.analysis import breaks, derive
 from reports.claims import Claim, Outcome, Verdict
@@ -145,11 +146,12 @@ def _parts(loaded: Iterable[tuple[Run, pd.DataFrame]]) -> tuple[Part, ...]:
         )
         ladders = int((run.families["run"] == name).sum()) if len(run.families) else 0
         own = tuple(study for study in plan.studies if study in run.studies)
-        missing = sum(not (folder / "cells" / f"{key}.json").exists() for key in plan.slots)
+        store = Store(folder)
+        missing = len(plan.slots.keys() - set(store.keys()))
         made = slug(plan.name, taken)
         forged = ~_own_keys(frame)
         told += tuple(
-            f"cells/{row.key}.json: its key is not that of its contents ({row.slot})"
+            f"{store.place(row.key).relative_to(folder).as_posix()}: its key is not that of its contents ({row.slot})"
             for row in frame[forged].itertuples()
         )
         rows = _rows(frame[~forged], made, machine, plan)

@@ -1,8 +1,9 @@
 """Measure how long reports take and how much memory: of made-up runs of many rows, and of runs that are there.
 
 `python -m tests.benchmarks.report_speed 100000` makes up a run of so many rows, of 100 surfaces, in a folder that is
-thrown away, and reports it; `python -m tests.benchmarks.report_speed runs/quick runs/papers` reports these. Each report
-is made in a process of its own. Nothing here fails for being slow.
+thrown away, and reports it; `python -m tests.benchmarks.report_speed runs/quick runs/papers` reports these. Printed are
+the seconds that storing the rows took, with making them up, and those of the report. Each report is made in a process
+of its own. Nothing here fails for being slow.
 """
 
 from __future__ import annotations
@@ -14,16 +15,21 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterable, Iterator
+from itertools import chain, islice
 from pathlib import Path
 
 import numpy as np
 
 from harness.contract import digest
+from harness.results import compaction, sealed
+from harness.results.store import Row
 from tests import synthetic_run
 from tests.synthetic_run import arrays, cell
 
 SURFACES = 100
 PRECISIONS = ("float32", "float64")
+PICTURED = 10  # settings whose rows have arrays, of a run with more rows than files are kept for
 
 
 def make(folder: Path, rows: int) -> Path:
@@ -40,21 +46,57 @@ def make(folder: Path, rows: int) -> Path:
     for (variant, surface, precision), model in models.items():
         if model["arrays"]:
             np.savez(folder / f"{variant} {surface} {precision}.npz", **arrays(model))
-    cells = []
-    for i in range(min(SURFACES, max(1, rows // (len(PRECISIONS) * len(variants))))):
-        like = surfaces[i % len(surfaces)]
-        for (variant, surface, precision), model in models.items():
-            for setting in range(settings) if surface == like else ():
-                made = _again(model, f"{like}_{i}", setting)
-                cells.append({name: made[name] for name in ("slot", "key", "family")})
-                (folder / "cells" / f"{made['key']}.json").write_text(json.dumps(made))
-                if made["arrays"]:
-                    os.link(folder / f"{variant} {surface} {precision}.npz", folder / made["arrays"])
+    made = _rows(models, surfaces, rows, settings)
+    cells = list(_parts(folder, made) if rows > compaction.MOST else _files(folder, made))
     (folder / "plan.json").write_text(json.dumps(synthetic_run.plan(cells)))
     return folder
 
 
-def _again(model: dict[str, object], surface: str, setting: int) -> dict[str, object]:
+def _rows(
+    models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: int
+) -> Iterator[tuple[Row, str]]:
+    """Make up each row, with the name of the model that it is like."""
+    for i in range(min(SURFACES, max(1, rows // (len(PRECISIONS) * len(synthetic_run.VARIANTS))))):
+        like = surfaces[i % len(surfaces)]
+        for (variant, surface, precision), model in models.items():
+            for setting in range(settings) if surface == like else ():
+                yield _again(model, f"{like}_{i}", setting), f"{variant} {surface} {precision}"
+
+
+def _files(folder: Path, rows: Iterable[tuple[Row, str]]) -> Iterator[Row]:
+    """Store rows in files of their own, and yield what a plan says of each."""
+    for row, model in rows:
+        (folder / "cells" / f"{row['key']}.json").write_text(json.dumps(row))
+        _link(folder, row, model)
+        yield {name: row[name] for name in ("slot", "key", "family")}
+
+
+def _parts(folder: Path, rows: Iterable[tuple[Row, str]]) -> Iterator[Row]:
+    """Store rows in Parquet parts, and yield what a plan says of each; only the first PICTURED settings have arrays."""
+    names: list[Row] = []
+
+    def stored(some: Iterable[tuple[Row, str]]) -> Iterator[tuple[Row, bytes]]:
+        for row, model in some:
+            if row["parameters"]["STEPS"] < PICTURED:
+                _link(folder, row, model)
+            else:
+                row["arrays"] = None
+            names.append({name: row[name] for name in ("slot", "key", "family")})
+            yield row, sealed.with_seal("{\n" + json.dumps(row)[1:])
+
+    waiting = iter(rows)
+    for first in waiting:
+        compaction.write_part(folder, stored(chain([first], islice(waiting, compaction.ROWS - 1))))
+    return iter(names)
+
+
+def _link(folder: Path, row: Row, model: str) -> None:
+    """Give a row the arrays of its model."""
+    if row["arrays"]:
+        os.link(folder / f"{model}.npz", folder / row["arrays"])
+
+
+def _again(model: Row, surface: str, setting: int) -> Row:
     """Return a cell like `model`, of another surface and setting of its variant."""
     variant = str(model["variant"])
     if setting:
@@ -64,9 +106,12 @@ def _again(model: dict[str, object], surface: str, setting: int) -> dict[str, ob
     named = {"surface": surface, "surface_title": surface.replace("_", " ").title(), "slot": slot, "key": key}
     named |= {"variant": variant, "parameters": {"STEPS": setting}}
     named |= {"comparison": f"{surface} front 256x256x1 compute"}
-    time = model["time"]
-    assert isinstance(time, dict)
-    return {**model, **named, "time": {**time, "session": surface}, "arrays": model["arrays"] and f"arrays/{key}.npz"}
+    return {
+        **model,
+        **named,
+        "time": {**model["time"], "session": surface},
+        "arrays": model["arrays"] and f"arrays/{key}.npz",
+    }
 
 
 def measure(run: Path, output: Path, *options: str) -> tuple[float, float]:
@@ -91,15 +136,18 @@ def _one(run: str, output: str, *options: str) -> None:
 
 def _main(arguments: list[str]) -> None:
     """Measure what the command line names: numbers of rows, and folders of runs."""
-    print(f"{'run':24} {'seconds':>8} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>8}")
+    print(f"{'run':24} {'stored, s':>10} {'report, s':>10} {'ms a row':>9} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}")
     for argument in arguments or ["1000"]:
         with tempfile.TemporaryDirectory() as scratch:
+            since = time.perf_counter()
             run = make(Path(scratch, "run"), int(argument)) if argument.isdigit() else Path(argument)
+            stored = f"{time.perf_counter() - since:.1f}" if argument.isdigit() else "-"
             output = Path(scratch, "made")
             seconds, memory = measure(run, output)
             pdf, html = (output.joinpath(f"report.{form}").stat().st_size / 1e6 for form in ("pdf", "html"))
+        each = f"{1e3 * seconds / int(argument):.3f}" if argument.isdigit() else "-"
         name = f"{argument} rows" if argument.isdigit() else run.name
-        print(f"{name:24} {seconds:8.1f} {memory:6.2f} {pdf:8.1f} {html:8.1f}", flush=True)
+        print(f"{name:24} {stored:>10} {seconds:10.1f} {each:>9} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -22,14 +22,14 @@ from harness.devices import kept_answers
 from harness.gate import baseline, pictures
 from harness.gate.baseline import Baseline
 from harness.oracle import cache, first_hits
-from harness.results import agreement, archive, commits, sealed, store, study_file
+from harness.results import agreement, archive, commits, compaction, sealed, store, study_file
 from harness.results.schema import FAMILY, SCHEMA, flattener
 from harness.results.store import Store
 from harness.running import environment
 from harness.scenes import meshes
 from harness.studies import condition_numbers, torus_along_rays
 from reports.reading import arrays as reading
-from reports.reading import load
+from reports.reading import columns, load
 from reports.site import build
 from tests import kept_runs, synthetic_run
 from tests.agreeing_rows import whole
@@ -51,7 +51,7 @@ class Kind:
     """State a kind of file.
 
     path: of the file, below a folder
-    form: "json", "npz", "npy", "toml" or "zip", of which a part may be read where another part is damaged
+    form: "json", "npz", "npy", "toml", "parquet" or "zip", of which a part may be read where another part is damaged
     read: reads the file in a folder as commands do; returns None where it is made again. Raises ValueError, OSError or
         FirsthitError where it is named
     sound: tells whether a value that was read may become a figure
@@ -81,6 +81,22 @@ def _row(key: str) -> Callable[[Path], Any]:
         return found
 
     return read
+
+
+def _part(folder: Path) -> Any:
+    """Read a row of a part as `run` does, and its columns as a report does."""
+    own = folder / "of a part"
+    place = own / "parts" / (folder / "part.name").read_text()
+    if not place.is_symlink():
+        place.parent.mkdir(parents=True)
+        place.symlink_to(folder / "part.parquet")
+    packed = Store(own)
+    found = packed.read(KEY, older=True)
+    if found is None:
+        raise ValueError(packed.unreadable.get(KEY) or next(iter(packed.parts.problems().values()), "there is no row"))
+    if not packed.parts.all()[0].problem:
+        assert columns.Columns((packed.parts.all()[0],), np.zeros(1, np.int32), np.zeros(1, np.int64)).column("key")
+    return found
 
 
 def _finite(value: Any) -> bool:
@@ -186,6 +202,7 @@ def _archive(folder: Path) -> Any:
 KINDS = (
     Kind("cells", f"cells/{KEY}.json", "json", _row(KEY), _sound_row),
     Kind("families", f"cells/{LADDER}.json", "json", _row(LADDER), _sound_row),
+    Kind("parts", "part.parquet", "parquet", _part, _sound_row),
     Kind("plan", "plan.json", "json", lambda folder: vars(load.plan_of(folder)), lambda _: True),
     Kind("studies", "condition_numbers.json", "json", _study("condition_numbers"), _finite),
     Kind("studies of rays", "torus_along_rays.json", "json", _study("torus_along_rays"), _finite),
@@ -212,6 +229,9 @@ def prepare(folder: Path) -> None:
     for key, row in ((KEY, view), (LADDER, hard)):
         agreement.check_whole(row | {"key": key}, "")
         (folder / "cells" / f"{key}.json").write_bytes(sealed.sealed(row | {"key": key}))
+    part = compaction.write_part(folder / "of parts", [(view | {"key": KEY}, Store(folder).text(KEY))])
+    (folder / "part.name").write_text(part.name)
+    part.rename(folder / "part.parquet")
     Store(folder).write_plan(synthetic_run.plan([view | {"key": KEY}, hard | {"key": LADDER}]) | _methods())
     for module in (condition_numbers, torus_along_rays):
         name = module.__name__.rpartition(".")[2]

@@ -6,7 +6,7 @@ import json
 import shlex
 from pathlib import PurePath
 
-import pandas as pd
+import numpy as np
 
 from reports import wording
 from reports.content import Block, Code, Text
@@ -83,19 +83,20 @@ def _plugins(material: Material) -> str:
     if not outside:
         taken = "--plugins" in _words(plan.command) and not any("outside" in told for told in plan.methods.values())
         return "Methods that --plugins adds are no part of the commit." if taken else ""
-    each = [f"{name} from {folder}{_files(material.frame, name)}" for name, folder in sorted(outside.items())]
+    each = [f"{name} from {folder}{_files(material, name)}" for name, folder in sorted(outside.items())]
     return (
         f"No part of the commit, which does not hold what lies outside the project: {wording.listed(each)}. To have "
         "the same results again, have the same files there."
     )
 
 
-def _files(frame: pd.DataFrame, method: str) -> str:
+def _files(material: Material, method: str) -> str:
     """Write the files of a method and their hashes, as its rows store them; "" where none does."""
-    for text in frame.loc[(frame["method"] == method) & frame["identity"].notna(), "identity"]:
-        files = json.loads(text).get("method") or {}
-        own = [f"{file} {found}" for file, found in files.items()]
-        return f" ({', '.join(own)})" if own else ""
+    for row in np.flatnonzero(material.frame["method"] == method):
+        text = material.run.columns.at("identity", int(row))
+        if text is not None:
+            own = [f"{file} {found}" for file, found in (json.loads(text).get("method") or {}).items()]
+            return f" ({', '.join(own)})" if own else ""
     return ""
 
 
