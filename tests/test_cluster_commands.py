@@ -150,3 +150,14 @@ def test_a_worker_needs_the_engine_and_no_more(environment: dict[str, str]) -> N
     names = [info.name for info in usable_devices()][-1:]  # one that works will do
     result = _python(environment, "-c", SERVES, *names)
     assert result.stdout == "ready\n", result.stderr
+
+
+def test_a_worker_that_cannot_be_started_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def killed(**_: object) -> None:
+        raise RuntimeError("Nanny failed to start.") from OSError("its process was killed")
+
+    monkeypatch.setattr(serving, "serve", killed)
+    monkeypatch.setattr(serving.process, "die_with_parent", lambda: None)
+    monkeypatch.setattr(serving, "Connection", int)
+    with pytest.raises(SystemExit, match="a worker could not be started: OSError: its process was killed"):
+        serving.main("{}", "3")

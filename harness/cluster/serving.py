@@ -54,9 +54,17 @@ def _listen(asked: Connection, loop: asyncio.AbstractEventLoop, told: asyncio.Ev
 
 
 def main(stated: str, handle: str) -> None:
-    """Run the worker that `stated` says as JSON, with the names of serve's parameters, until `handle` is closed."""
+    """Run the worker that `stated` says as JSON, with the names of serve's parameters, until `handle` is closed.
+
+    Exits with 1 where Dask cannot start it, as where its process is killed while it starts; the supervisor tells that.
+    """
     process.die_with_parent()
-    asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
+    try:
+        asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
+    except Exception as error:  # whatever Dask raises
+        while error.__cause__ is not None:  # the last one says only that it could not be started
+            error = error.__cause__  # type: ignore[assignment]
+        sys.exit(f"firsthit: a worker could not be started: {type(error).__name__}: {error}")
 
 
 if __name__ == "__main__":
