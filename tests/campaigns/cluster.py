@@ -29,7 +29,7 @@ from tests.campaigns.processes import Command
 
 EACH = 12
 CORES = 1
-PAUSE = 0.1, 1.5  # between two disturbances, in times of what the workers need to start and say what they have
+PAUSE = 0.05, 0.6  # between two disturbances, in times of what the workers need to start and say what they have
 LONGEST = 900.0  # seconds of a run, after which it counts as one that hangs
 STACKS = {"PYTHONFAULTHANDLER": "1"}  # so that a run that hangs tells where
 CONFIG = """title = "Small"
