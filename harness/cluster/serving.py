@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import os
 import sys
 import threading
@@ -29,6 +30,13 @@ QUIET = {  # what Dask does by itself in a worker, 100 times a second, 50 times 
 def dask_setup(_worker: Any) -> None:
     """End the worker's process with its nanny's; Dask calls this where the worker starts."""
     process.die_with_parent()
+    hush()
+
+
+def hush() -> None:
+    """Let loggers that get a level of their own where Dask is imported write as little as the rest of it."""
+    for name in ("distributed.client", "tornado.application"):
+        logging.getLogger(name).setLevel(logging.getLogger("distributed").level)
 
 
 async def serve(address: str, name: str, resources: dict[str, float], machine: str, asked: Connection) -> None:
@@ -37,6 +45,7 @@ async def serve(address: str, name: str, resources: dict[str, float], machine: s
     import dask
     from distributed import Nanny
 
+    hush()
     dask.config.set(QUIET)  # the nanny hands it to the worker
     stated: dict[str, Any] = {"name": name, "resources": resources, "preload": [PRELOAD]}
     async with Nanny(address, nthreads=1, memory_limit=0, dashboard=False, **stated) as nanny:
