@@ -7,7 +7,9 @@ import importlib.util
 import subprocess
 import sys
 from importlib.metadata import distribution
+from multiprocessing import Pipe
 from pathlib import Path
+from typing import Any
 
 import dask
 import pytest
@@ -15,8 +17,10 @@ import pytest
 from harness import ROOT
 from harness.cli import main
 from harness.cluster import serving, slurm
+from harness.cluster.supervisor import Supervisor
 from harness.contract import FirsthitError
 from tests.conftest import usable_devices
+from tests.sleeping_device import until
 from tests.test_light import _python
 from tests.test_light import environment as environment
 
@@ -161,3 +165,18 @@ def test_a_worker_that_cannot_be_started_is_told_in_a_line(monkeypatch: pytest.M
     monkeypatch.setattr(serving, "Connection", int)
     with pytest.raises(SystemExit, match="a worker could not be started: OSError: its process was killed"):
         serving.main("{}", "3")
+
+
+def test_what_a_worker_has_started_ends_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def start(_module: str, _words: list[str], _what: str, options: dict[str, Any]) -> tuple[Any, Any]:
+        script = f"sleep 300 & echo $! > {tmp_path}/pid.new; mv {tmp_path}/pid.new {tmp_path}/pid; exec sleep 300"
+        return subprocess.Popen(["sh", "-c", script], **options), Pipe()[0]
+
+    monkeypatch.setattr("harness.cluster.supervisor.process.start", start)
+    monkeypatch.setattr("harness.cluster.supervisor.END_SECONDS", 0.0)
+    supervisor = Supervisor("lab1:8786", (), 1, "lab1", lambda _: None)
+    supervisor.look()
+    until((tmp_path / "pid").exists)
+    started = int((tmp_path / "pid").read_text())
+    supervisor.close()
+    until(lambda: not Path(f"/proc/{started}/stat").exists() or " Z " in Path(f"/proc/{started}/stat").read_text())
