@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -12,6 +13,7 @@ from distributed import Future, Status
 from distributed.scheduler import KilledWorker, WorkerState
 
 from harness.cluster import engine as engines
+from harness.cluster import starting
 from harness.cluster.engine import Engine
 from harness.cluster.executor import LOSSES, ClusterExecutor
 from harness.cluster.places import Lost
@@ -196,3 +198,30 @@ def test_what_a_worker_said_is_asked_again_where_it_was_lost_on_the_way(monkeypa
     with cluster([LAB1]) as (_, engine, told):
         until(lambda: engine.places())
     assert len(asked) == 2 and told == []
+
+
+def test_a_client_that_is_closed_while_its_scheduler_is_away_writes_no_log(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    levels = {
+        name: logging.getLogger(name).level for name in ("distributed", "distributed.client", "tornado.application")
+    }
+    try:
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        logging.getLogger("distributed.client").setLevel(logging.WARNING)  # as Dask sets it where it is imported
+        monkeypatch.setattr("harness.cluster.starting.Engine", lambda connect, *_: connect())
+        monkeypatch.setattr("dask.distributed.Client", lambda *_, **__: Closed())
+        with starting._watched("lab1:8786", "lab1:8786", lambda _: None):
+            logging.getLogger("distributed.client").error("it could not be connected again")
+        assert capsys.readouterr().err == ""
+        assert not logging.getLogger("distributed.client").isEnabledFor(logging.ERROR)
+    finally:
+        for name, level in levels.items():
+            logging.getLogger(name).setLevel(level)
+
+
+class Closed:
+    """Stand for a client, and for what watches it."""
+
+    def close(self) -> None:
+        pass

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import spreading
-from harness.cluster import holder, slurm
+from harness.cluster import holder, serving, slurm
 from harness.cluster.engine import PATIENCE_SECONDS, Engine
 from harness.cluster.fleet import ANY, ClusterFleet
 from harness.cluster.spread import ClusterSpread
@@ -81,6 +81,7 @@ def _watched(address: Any, told: str, tell: Tell) -> Iterator[Engine]:
     def connect() -> Any:
         from dask.distributed import Client
 
+        serving.hush()
         return Client(address, timeout=CONNECT_SECONDS)  # type: ignore[no-untyped-call]
 
     try:

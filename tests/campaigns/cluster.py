@@ -29,8 +29,8 @@ from tests.campaigns.processes import Command
 
 EACH = 12
 CORES = 1
-PAUSE = 2.0, 10.0  # seconds between two disturbances
-LONGEST = 600.0  # seconds of a run, after which it counts as one that hangs
+PAUSE = 0.05, 0.6  # between two disturbances, in times of what the workers need to start and say what they have
+LONGEST = 900.0  # seconds of a run, after which it counts as one that hangs
 STACKS = {"PYTHONFAULTHANDLER": "1"}  # so that a run that hangs tells where
 CONFIG = """title = "Small"
 surfaces = ["sphere", "torus"]
@@ -87,19 +87,21 @@ def prepare(shared: Path) -> None:
 
 
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
-    shutil.copy(place.shared / "small.toml", place.own)
+    own = place.own / "work"
+    own.mkdir()
+    shutil.copy(place.shared / "small.toml", own)
     scheduler, undisturbed = Scheduler(), processes.facts(place.shared / "runs")
-    workers = Command(place.own, ("worker", scheduler.address, "--cores", str(CORES)))
+    workers = Command(own, ("worker", scheduler.address, "--cores", str(CORES)))
     outcomes: Counter[str] = Counter()
     left = ["scheduler killed", "worker hung", *["worker killed"] * (EACH - 2)]
     dice.shuffle(left)
-    number = 0
+    number, pace = 0, 0.0
     while left:
         number += 1
         runs = f"runs{number}"
-        _disturb(dice, place.own, runs, workers, scheduler, left, outcomes)
-        processes.check_same(processes.facts(place.own / runs), undisturbed)
-        processes.check_clean(place.own / runs)
+        pace = _disturb(dice, own, runs, workers, scheduler, left, outcomes, pace)
+        processes.check_same(processes.facts(own / runs), undisturbed)
+        processes.check_clean(own / runs)
     workers.process.send_signal(signal.SIGINT)
     code, told = workers.ended()
     if code != 130:
@@ -116,18 +118,26 @@ def _disturb(
     scheduler: Scheduler,
     left: list[str],
     outcomes: Counter[str],
-) -> None:
-    """Run the config to its end, and do meanwhile what is next in `left`."""
+    pace: float,
+) -> float:
+    """Run the config to its end, and do meanwhile what is next in `left`.
+
+    Returns `pace`, the seconds in which workers start; where that is 0, how long the run took to find them.
+    """
     words = ("run", "small.toml", "--runs", runs, "--cluster", scheduler.address)
     command = Command(own, words, environment=STACKS)
     finished: dict[str, bytes] = {}
-    end, after = time.monotonic() + LONGEST, time.monotonic() + dice.uniform(*PAUSE)
+    start = time.monotonic()
+    end, after = start + LONGEST, 0.0
     while command.process.poll() is None:
         finished = _seen(own / runs, finished)
-        if left and time.monotonic() > after and _has_begun(own / runs):
+        if not after and _has_begun(own / runs):
+            pace = pace or time.monotonic() - start
+            after = time.monotonic() + pace * dice.uniform(*PAUSE)
+        if left and after and time.monotonic() > after:
             if _done(dice, left[-1], workers, scheduler):
                 outcomes[left.pop()] += 1
-            after = time.monotonic() + dice.uniform(*PAUSE)
+            after = time.monotonic() + pace * dice.uniform(*PAUSE)
         if time.monotonic() > end:
             command.process.send_signal(signal.SIGABRT)
             command.process.wait(60)
@@ -138,6 +148,7 @@ def _disturb(
     if code != 0:
         raise Fell(f"`run --cluster` ended with {code}: {told[-2500:]}")
     _seen(own / runs, finished)
+    return pace
 
 
 def _has_begun(runs: Path) -> bool:
@@ -194,5 +205,5 @@ CAMPAIGN = Campaign(
     whole=60,
     each=EACH,
     prepare=prepare,
-    limit=1800,
+    limit=3600,
 )
