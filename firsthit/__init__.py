@@ -219,6 +219,7 @@ def run(
     yes: bool = False,
     jobs: int | None = None,
     shard: str | None = None,
+    cluster: AnyPath | None = None,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Run:
@@ -228,15 +229,18 @@ def run(
     place of those that it names. Finished cells are reused; `force` runs them again, `retry_failed` runs those again
     that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. First hits are
     certified by `jobs` processes, one for each core if that is None; never while a time is taken. With `shard`, as in
-    "3/16", that part of the config is run, into a folder of its own. `tell` is called with a line of text for
-    whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
-    it has ended. A run that was stopped, as by interrupting a notebook, goes on from there when it is called again.
+    "3/16", that part of the config is run, into a folder of its own. With `cluster`, cells run on the devices of a Dask
+    cluster, and its cores take the oracle's work: the HOST:PORT of its scheduler, "local" or "local:N" for one on this
+    machine, or the path of a TOML file for Slurm (docs/cluster.md). `tell` is called with a line of text for whatever
+    ends; `print` will do. Where another run writes into the same folder, `wait` waits until it has ended. A run that
+    was stopped, as by interrupting a notebook, goes on from there when it is called again.
 
     A cell that fails is a row that says why. Raises FirsthitError for an argument that makes no sense, with file and
-    line for a mistake in the config, and with exit_code 3 where none of its devices is here, the folder is another
-    run's or a row cannot be written.
+    line for a mistake in the config, and with exit_code 3 where none of its devices is there, the folder is another
+    run's, a row cannot be written, or the cluster cannot be reached or needs a package that is missing.
     """
     import shlex
+    from contextlib import ExitStack
 
     from harness.running import run as running
 
@@ -245,10 +249,17 @@ def run(
     named, watcher = checked_names("devices", devices), running.teller(tell)
     given = running.read(config, _folder(plugins), named, watcher, yes, shard=shard)
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
-    words += [*(["--shard", str(shard)] if shard is not None else []), *(["--yes"] if yes else [])]
+    stated = {"--cluster": cluster, "--shard": shard}
+    words += [word for name, said in stated.items() if said is not None for word in (name, str(said))]
+    words += ["--yes"] if yes else []
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
     again: dict[str, Any] = {"force": force, "retry_failed": retry_failed, "wait": wait}
-    with _processes(jobs):
+    with ExitStack() as held_open:
+        held_open.enter_context(_processes(jobs))
+        if cluster is not None:
+            from harness.cluster import starting
+
+            again["fleet"] = held_open.enter_context(starting.opened(str(cluster), given, watcher.warned))
         return running.run(given, folder, command, watcher=watcher, **again)
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+import zlib
+from collections.abc import Collection, Iterator
 from functools import cache
 from typing import Any
 
@@ -63,6 +64,48 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         names = [info.name for info in usable_devices()]
         nothing = [pytest.param(None, marks=pytest.mark.skip("no device"))]
         metafunc.parametrize("device", names or nothing, indirect=True)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--every-device", action="store_true", help="run each case on every device, not on one in turn")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave each case of a test that has several cases on one device; which one is as by chance, but always the same.
+
+    Most of a case's time is its program's compilation. A test without other parameters runs on every device, and so
+    does each case with `--every-device`.
+    """
+    if config.getoption("--every-device"):
+        return
+    names = {info.name for info in usable_devices()}
+    cases: dict[str, dict[str, dict[str, pytest.Item]]] = {}
+    for item in items:
+        parts = _parts(item, names)
+        if parts is not None:
+            test, case, device = parts
+            cases.setdefault(test, {}).setdefault(case, {})[device] = item
+    left_out: set[pytest.Item] = set()
+    for test, found in cases.items():
+        for case, on in found.items() if len(found) > 1 else ():
+            chosen = sorted(on)[zlib.crc32(f"{test} {case}".encode()) % len(on)]
+            left_out.update(item for device, item in on.items() if device != chosen)
+    config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+    items[:] = [item for item in items if item not in left_out]
+
+
+def _parts(item: pytest.Item, devices: Collection[str]) -> tuple[str, str, str] | None:
+    """Return a test's name, its case but for the device, and the device; None where no parameter is a device."""
+    if not isinstance(item, pytest.Function) or not hasattr(item, "callspec"):
+        return None
+    stated = item.callspec.params
+    named = [name for name, value in stated.items() if isinstance(value, str) and value in devices]
+    if len(named) != 1:
+        return None
+    test = item.nodeid.partition("[")[0]
+    (device,) = named
+    others = item.callspec.id.replace(stated[device], "", 1)
+    return test, others, stated[device]
 
 
 @pytest.fixture

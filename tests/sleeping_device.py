@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import os
 import tempfile
@@ -16,6 +17,7 @@ import pytest
 from harness.cluster import holder, starting
 from harness.cluster.engine import Engine
 from harness.cluster.holder import Announced
+from harness.cluster.serving import QUIET
 from harness.contract import DeviceInfo, Hits, RayStatus
 from harness.devices.executor import CellError
 from harness.devices.host import Host
@@ -74,6 +76,9 @@ class SleepingExecutor:
     def close(self) -> None:
         self._kept.clear()
 
+    def kill(self) -> None:
+        self.close()
+
 
 def announce(resources: Any) -> dict[str, Any]:
     """Say what a worker has, without looking: its resources name its machine too, as `opencl:sleeping#lab1`."""
@@ -84,6 +89,46 @@ def announce(resources: Any) -> dict[str, Any]:
     return {"code": holder.code(), "said": pickle.dumps(Announced(machine, HOST, devices))}
 
 
+def serve(address: str, resources: dict[str, float], seconds: float) -> None:
+    """Run a worker with these resources in this process, whose device sleeps for so long, until its scheduler ends."""
+    os.environ.setdefault(starting.LOGGING, "critical")
+    import dask
+    from dask.distributed import Worker
+
+    async def served() -> None:
+        async with Worker(address, resources=resources, nthreads=1, dashboard=False) as worker:
+            await worker.finished()
+
+    SleepingExecutor.seconds = seconds
+    with _patched() as patched, dask.config.set(QUIET):
+        patched.setattr(holder.admission, "alone", lambda *_, **__: contextlib.nullcontext())  # as on 8 machines
+        asyncio.run(served())
+
+
+@contextlib.contextmanager
+def _patched() -> Iterator[pytest.MonkeyPatch]:
+    """Let devices sleep, and lock the machine elsewhere than other workers and runs do, for a block."""
+    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched:
+        patched.setattr(holder, "LocalExecutor", SleepingExecutor)
+        patched.setattr(holder.admission, "_folder", lambda: Path(locks))
+        patched.setattr("harness.cluster.engine.announce", announce)
+        yield patched
+
+
+@contextlib.contextmanager
+def watched(address: str) -> Iterator[Engine]:
+    """Watch the cluster of a scheduler whose workers `serve`."""
+    os.environ.setdefault(starting.LOGGING, "critical")
+    from dask.distributed import Client
+
+    with _patched():
+        engine = Engine(lambda: Client(address, timeout=30), address, lambda _: None)
+        try:
+            yield engine
+        finally:
+            engine.close()
+
+
 @contextlib.contextmanager
 def cluster(workers: Sequence[dict[str, float]], patience: float = 20.0) -> Iterator[tuple[Any, Engine, list[str]]]:
     """Run a scheduler and workers with these resources in this process.
@@ -91,14 +136,13 @@ def cluster(workers: Sequence[dict[str, float]], patience: float = 20.0) -> Iter
     Yields Dask's cluster, with `add` to add a worker and `workers_of_test`, the engine, and what it tells.
     """
     os.environ.setdefault(starting.LOGGING, "critical")
+    import dask
     from dask.distributed import Client, LocalCluster, Worker
 
     told: list[str] = []
-    with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched:
-        patched.setattr(holder, "LocalExecutor", SleepingExecutor)
+    soon = {"distributed.comm.timeouts.connect": "1s"}  # for who ends a cluster whose scheduler has ended
+    with _patched() as patched, dask.config.set(QUIET | soon):
         patched.setattr(holder.admission, "alone", lambda *_, **__: contextlib.nullcontext())
-        patched.setattr(holder.admission, "_folder", lambda: Path(locks))  # not those of this machine's workers
-        patched.setattr("harness.cluster.engine.announce", announce)
         patched.setattr("harness.cluster.engine.LOOK_SECONDS", 0.05)
         with LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as made:
             made.workers_of_test = []

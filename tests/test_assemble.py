@@ -115,7 +115,9 @@ def _array_passed_twice(text: str) -> list[str]:
     return [call for call in calls for name in arrays if [a.strip() for a in call.split(",")].count(name) > 1]
 
 
-@pytest.mark.parametrize(("path", "text"), _kernel_texts().items(), ids=str)
+@pytest.mark.parametrize(
+    ("path", "text"), [pytest.param(*kernel, id=str(kernel[0])) for kernel in _kernel_texts().items()]
+)
 def test_no_array_is_passed_twice_in_a_call(path: Path, text: str):
     assert not _array_passed_twice(text), path
 

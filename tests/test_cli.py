@@ -288,7 +288,7 @@ def test_lists_name_what_is_there(capsys, what):
     assert expected.get(what, usable_devices()[0].name) in out
 
 
-@pytest.mark.parametrize("config", ["configs/speed.toml", "speed"])
+@pytest.mark.parametrize("config", ["configs/quick.toml", "quick"])
 def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys, config):
     code, out, _ = told(capsys, "plan", config, "--runs", tmp_path)
     assert code == 0
@@ -315,7 +315,7 @@ def test_a_run_on_a_device_that_is_not_here_is_one_line(tmp_path, capsys):
 
 def test_a_run_folder_that_cannot_be_written_is_one_line(tmp_path, capsys):
     (tmp_path / "runs").write_text("in the way")
-    code, _, err = told(capsys, "run", "configs/speed.toml", "--runs", tmp_path / "runs")
+    code, _, err = told(capsys, "run", "configs/quick.toml", "--runs", tmp_path / "runs")
     assert code == 3
     assert "cannot write" in err
 

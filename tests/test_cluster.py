@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import threading
 import time
@@ -10,6 +11,7 @@ from typing import Any
 
 import pytest
 
+import firsthit
 from harness.cluster import admission
 from harness.cluster.executor import LOSSES, ClusterExecutor
 from harness.cluster.fleet import ClusterFleet
@@ -228,3 +230,19 @@ def test_nothing_runs_beside_a_timed_step_and_who_works_waits_for_no_second_turn
     assert all(len(names) == 2 for first, *names in seen if first.startswith("timed") for names in [[first, *names]])
     with admission.beside(), admission.beside(), admission.away(), admission.alone("d", whole_machine=True):
         pass
+
+
+def test_python_runs_on_a_cluster_as_the_command_does(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, steps: list[Any]
+) -> None:
+    told: list[str] = []
+    with cluster([LAB1, {"cores": 1.0}]) as (_, engine, _told):
+        until(lambda: engine.places() and engine.cores())
+        monkeypatch.setattr("harness.cluster.starting._watched", lambda *_: contextlib.nullcontext(engine))
+        where = {"runs": tmp_path / "runs", "cluster": "lab1:8786"}
+        found = firsthit.run(config(tmp_path), **where, tell=told.append)
+    assert (len(found.rows), found.unfinished) == (4, 0) and steps
+    assert {row["device"] for row in rows_below(tmp_path)} == {"opencl:sleeping"}
+    assert json.loads((found.folder / "plan.json").read_text())["command"].endswith("--cluster lab1:8786")
+    with pytest.raises(FirsthitError, match="--cluster 'nowhere': write HOST:PORT of a Dask scheduler"):
+        firsthit.run("quick", runs=tmp_path, cluster="nowhere")

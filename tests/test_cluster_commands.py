@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import subprocess
 import sys
 from importlib.metadata import distribution
+from multiprocessing import Pipe
 from pathlib import Path
+from typing import Any
 
+import dask
 import pytest
 
 from harness import ROOT
 from harness.cli import main
-from harness.cluster import slurm
+from harness.cluster import serving, slurm
+from harness.cluster.supervisor import Supervisor
 from harness.contract import FirsthitError
+from tests.conftest import usable_devices
+from tests.sleeping_device import until
 from tests.test_light import _python
 from tests.test_light import environment as environment
 
@@ -61,6 +68,12 @@ def test_a_run_without_a_cluster_imports_no_dask() -> None:
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=100, check=False).returncode == 0
 
 
+def test_what_is_kept_quiet_in_a_worker_is_what_dask_does() -> None:
+    importlib.import_module("distributed")  # whose settings are among Dask's then
+    stated = {name: dask.config.get(name) for name in serving.QUIET}
+    assert all(stated[name] != value for name, value in serving.QUIET.items()), stated
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -101,6 +114,23 @@ def _parsed(words: list[str]) -> object:
     return build_parser(words).parse_args(words)
 
 
+SERVES = """
+import pickle, sys
+from distributed import Nanny, Worker
+from harness.cluster import holder, serving, starting, supervisor
+
+for name in sys.argv[1:]:
+    (info, probes), = pickle.loads(holder.announce({name: 1.0})["said"]).devices
+    assert probes and not info.problem, info.problem
+    held = holder.Holder(60.0, 0.5)
+    said = pickle.loads(held.step(pickle.dumps(("fingerprint", (name,), info.resident is None, []))))
+    assert said[0] == "ok", said
+    held.close()
+assert holder.announce({"cores": 1.0})["code"]
+print("ready")
+"""
+
+
 def _needed(name: str, found: set[str]) -> set[str]:
     """Return a package, and all that it cannot be installed without."""
     from packaging.requirements import Requirement
@@ -121,7 +151,32 @@ def test_a_worker_needs_the_engine_and_no_more(environment: dict[str, str]) -> N
             link = folder / file.parts[0]
             if file.parts[0] not in ("..", "__pycache__") and not link.exists():
                 link.symlink_to(str(distribution(name).locate_file(file.parts[0])))
-    code = "from harness.cluster import holder, serving, supervisor, starting\nfrom distributed import Nanny, Worker\n"
-    code += "assert holder.announce({'cores': 1.0})['code']\nprint('ready')"
-    result = _python(environment, "-c", code)
+    names = [info.name for info in usable_devices()][-1:]  # one that works will do
+    result = _python(environment, "-c", SERVES, *names)
     assert result.stdout == "ready\n", result.stderr
+
+
+def test_a_worker_that_cannot_be_started_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def killed(**_: object) -> None:
+        raise RuntimeError("Nanny failed to start.") from OSError("its process was killed")
+
+    monkeypatch.setattr(serving, "serve", killed)
+    monkeypatch.setattr(serving.process, "die_with_parent", lambda: None)
+    monkeypatch.setattr(serving, "Connection", int)
+    with pytest.raises(SystemExit, match="a worker could not be started: OSError: its process was killed"):
+        serving.main("{}", "3")
+
+
+def test_what_a_worker_has_started_ends_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def start(_module: str, _words: list[str], _what: str, options: dict[str, Any]) -> tuple[Any, Any]:
+        script = f"sleep 300 & echo $! > {tmp_path}/pid.new; mv {tmp_path}/pid.new {tmp_path}/pid; exec sleep 300"
+        return subprocess.Popen(["sh", "-c", script], **options), Pipe()[0]
+
+    monkeypatch.setattr("harness.cluster.supervisor.process.start", start)
+    monkeypatch.setattr("harness.cluster.supervisor.END_SECONDS", 0.0)
+    supervisor = Supervisor("lab1:8786", (), 1, "lab1", lambda _: None)
+    supervisor.look()
+    until((tmp_path / "pid").exists)
+    started = int((tmp_path / "pid").read_text())
+    supervisor.close()
+    until(lambda: not Path(f"/proc/{started}/stat").exists() or " Z " in Path(f"/proc/{started}/stat").read_text())

@@ -31,6 +31,7 @@ ALL_DEGREES = [degree for degree in dense.DEGREES if degree > 1]
 SEEDS = max(1, -(-WANTED // (MOST * len(ALL_DEGREES) * max(1, len(PLACES)))))
 
 
+@cache
 def accepted(method):
     accepts = find_methods().get(method).method.accepts
     return [degree for degree in dense.DEGREES if accepts(dense.surface_of(degree, dense.seed_of(degree))) is None]

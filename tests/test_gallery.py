@@ -29,10 +29,11 @@ from .test_devices import cast
 DEFAULT_RAYS = 40_000
 RAYS = int(os.environ.get("FIRSTHIT_RAYS", DEFAULT_RAYS))
 NAMES = held()
+METHODS = find_methods()
 GRAZING = 1e-3
 CLAIMING = [
     name
-    for name, plugin in find_methods().plugins.items()
+    for name, plugin in METHODS.plugins.items()
     if "no_false_hit" in plugin.method.claims and plugin.method.casts == "rays"
 ]
 PLACES = [(info.name, precision) for precision in ("float32", "float64") for info in usable_devices()]
@@ -50,8 +51,7 @@ def rays_for(surface, count, rng):
 
 
 def accepted(surface):
-    methods = find_methods()
-    return [name for name in CLAIMING if methods.get(name).method.accepts(surface) is None]
+    return [name for name in CLAIMING if METHODS.get(name).method.accepts(surface) is None]
 
 
 def false_hits(surface, rays, truth, method, device, precision):
@@ -102,18 +102,18 @@ def test_no_false_hit_on_clear_rays_of_the_gallery(name, method, device_name, pr
 
 def claims_in_turn():
     """Every surface with one method that claims something, on one device in one precision, in turn."""
-    methods, chosen = find_methods(), []
+    chosen = []
+    stating = [m for m, plugin in METHODS.plugins.items() if plugin.method.claims & CLAIM_CHECKS.keys()]
+    casting = [m for m in stating if METHODS.get(m).method.casts == "rays"]
     for i, name in enumerate(NAMES):
-        stating = [m for m, plugin in methods.plugins.items() if plugin.method.claims & CLAIM_CHECKS.keys()]
-        able = [m for m in stating if methods.get(m).method.casts == "rays"]
-        able = [m for m in able if methods.get(m).method.accepts(surface_named(name)) is None]
+        able = [m for m in casting if METHODS.get(m).method.accepts(surface_named(name)) is None]
         chosen += [(name, able[i % len(able)], *PLACES[(i // 2) % len(PLACES)])] if able and PLACES else []
     return chosen
 
 
 @pytest.mark.parametrize(("name", "method", "device_name", "precision"), claims_in_turn())
 def test_claims_hold_on_the_gallery(name, method, device_name, precision):
-    surface, plugin, bench = surface_named(name), find_methods().get(method), bench_on(opened(device_name))
+    surface, plugin, bench = surface_named(name), METHODS.get(method), bench_on(opened(device_name))
     if reason := refusal(plugin, surface, precision, bench):
         pytest.skip(reason)
     rays = rays_for(surface, 400, np.random.default_rng(3))
@@ -175,7 +175,7 @@ def test_the_false_hits_that_the_class_is_about_are_there():
 def test_an_error_is_within_what_rounding_of_the_expansion_may_move_the_root(name):
     """Where the terms at a root are small and those of the expansion are not, condition says too little."""
     surface, device = surface_named(name), opened(usable_devices()[0].name)
-    method = find_methods().get("ray_march")
+    method = METHODS.get("ray_march")
     rays = rays_for(surface, 2_000, np.random.default_rng(0))
     truth = first_hits(surface, rays)
     verdicts = judge(

@@ -60,7 +60,10 @@ REPORTS = (
     ("reports.report", "reports.compare", "reports.history", "reports.recommended", "reports.site"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours
-    "methods": ("firsthit", "harness.contract", "harness.kernels", "harness.scenes.meshes", "surfaces"),
+    "methods": (
+        *("firsthit", "harness.contract", "harness.kernels", "surfaces"),
+        *("harness.scenes.meshes", "harness.oracle.balls64"),  # meshes for the tessellated, balls for bounds of f
+    ),
     "reports": ("harness.contract", "harness.escaping", "harness.results", "surfaces.model"),
 }
 FROM_ABOVE = {("harness.commands", "reports"), ("firsthit", "reports")}  # beside their own layers' rule

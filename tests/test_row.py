@@ -31,7 +31,7 @@ from . import tiny_runs
 from .conftest import usable_devices
 
 BY_MACHINE = {("time", "overhead_share"), ("environment", "commit")}  # null without a device's clock, without git
-NOT_SHOWN = {"szente_tables", "camera_paths"}  # the tiny runs have no settings, studies or paths for them
+NOT_SHOWN = {"szente_tables"}  # the tiny runs have no settings or studies for it
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,10 @@
-"""Where a ray begins: t_min, and starts on the surface, for every method of rays on every device."""
+"""Where a ray begins: t_min, and starts on the surface, for every method of rays;
+cases take turns on devices and precisions."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -9,11 +12,13 @@ import pytest
 
 import surfaces
 from harness.cli import main
-from harness.contract import FirsthitError, Hits, RayStatus, Surface
+from harness.contract import PRECISIONS, FirsthitError, Hits, RayStatus, Surface
 from harness.devices.interface import Device, hits_from, launch_rays
 from harness.kernels.assemble import method_program
 from harness.kernels.functions import unsupported
 from harness.plugins import find_methods
+
+from .conftest import opened, rotation, usable_devices
 
 METHODS = sorted(
     name for name, plugin in find_methods().plugins.items() if plugin.method.casts == "rays" and name != "null"
@@ -55,42 +60,50 @@ def _rays(origin: Any, ways: Any) -> Any:
     return np.array([(*origin, *way) for way in ways], np.float32)
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_start_on_the_surface_is_a_hit_at_once_whichever_way_it_goes(device, method):
-    for name, (surface, start) in STARTS.items():
-        for precision in ("float32", "float64"):
-            hits = cast_from(device, method, surface, _rays(start, WAYS), precision)
-            if hits is not None:
-                assert (hits.status == RayStatus.HIT).all(), (name, precision)
-                assert (hits.t == 0.0).all(), (name, precision)
-                assert (hits.evaluations == 1).all()
+# t_min before, between, on and behind the roots of the unit sphere, for rays along x: the root that is right
+AWAY, LEAVING, ENTERING = ((-3, 0, 0), (1, 0, 0)), ((1, 0, 0), (1, 0, 0)), ((1, 0, 0), (-1, 0, 0))
+BEGINNINGS = [
+    (AWAY, 0.0, 2.0),
+    (AWAY, 1.5, 2.0),
+    (AWAY, 2.0, 2.0),
+    (AWAY, 2.5, 4.0),
+    (AWAY, 4.0, 4.0),
+    (AWAY, 4.25, None),
+    (LEAVING, 0.25, None),
+    (ENTERING, 0.25, 2.0),
+    (ENTERING, 2.5, None),
+]
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_ray_begins_at_t_min(device, method):
-    """Along x from -3 the unit sphere is met at 2 and 4; t_min before, between, on and behind these."""
-    away = _rays((-3, 0, 0), [(1, 0, 0)])
-    leaving, entering = _rays((1, 0, 0), [(1, 0, 0)]), _rays((1, 0, 0), [(-1, 0, 0)])
-    cases = [
-        (away, 0.0, 2.0),
-        (away, 1.5, 2.0),
-        (away, 2.0, 2.0),
-        (away, 2.5, 4.0),
-        (away, 4.0, 4.0),
-        (away, 4.25, None),
-    ]
-    cases += [(leaving, 0.25, None), (entering, 0.25, 2.0), (entering, 2.5, None)]
-    for precision in ("float32", "float64"):
-        for rays, t_min, right in cases:
-            surface = SPHERE if method not in ("double_derivative_bisection", "sphere_tracing") else SQUARES
-            surface = surfaces.get("sphere") if method == "sphere_tracing" else surface
-            hits = cast_from(device, method, surface, rays, precision, t_min)
-            if hits is None:
-                continue
-            assert hits.status[0] == (RayStatus.MISS if right is None else RayStatus.HIT), (precision, t_min)
-            assert right is None or abs(hits.t[0] - right) < 2e-3, (precision, t_min, hits.t[0])
-            if right == t_min:
-                assert hits.t[0] == t_min
+def _in_turn(cases: Iterable[Any]) -> list[Any]:
+    """Each case with each method, on one device in one precision."""
+    places = [(info.name, precision) for info in usable_devices() for precision in PRECISIONS[: 1 + info.float64]]
+    pairs = rotation(list(product(cases, METHODS)), places)
+    return [pytest.param(*pair, *place, id=f"{i}-{pair[1]}") for i, (pair, place) in enumerate(pairs)]
+
+
+@pytest.mark.parametrize(("name", "method", "where", "precision"), _in_turn(STARTS))
+def test_a_start_on_the_surface_is_a_hit_at_once_whichever_way_it_goes(name, method, where, precision):
+    surface, start = STARTS[name]
+    hits = cast_from(opened(where), method, surface, _rays(start, WAYS), precision)
+    if hits is not None:
+        assert (hits.status == RayStatus.HIT).all()
+        assert (hits.t == 0.0).all()
+        assert (hits.evaluations == 1).all()
+
+
+@pytest.mark.parametrize(("case", "method", "where", "precision"), _in_turn(BEGINNINGS))
+def test_a_ray_begins_at_t_min(case, method, where, precision):
+    (origin, way), t_min, right = case
+    surface = SPHERE if method not in ("double_derivative_bisection", "sphere_tracing") else SQUARES
+    surface = surfaces.get("sphere") if method == "sphere_tracing" else surface
+    hits = cast_from(opened(where), method, surface, _rays(origin, [way]), precision, t_min)
+    if hits is None:
+        return
+    assert hits.status[0] == (RayStatus.MISS if right is None else RayStatus.HIT)
+    assert right is None or abs(hits.t[0] - right) < 2e-3
+    if right == t_min:
+        assert hits.t[0] == t_min
 
 
 def test_a_start_off_the_surface_is_no_start_on_it(device):

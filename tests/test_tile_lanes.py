@@ -12,11 +12,19 @@ from harness.kernels.assemble import lanes_on, method_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 
+from .conftest import opened, usable_devices
+
 GPUS = {"opencl:nvidia": 2048, "opencl:amd": 2048, "opengl:nvidia": 2048, "opencl:pocl": None, "opengl:llvmpipe": None}
 SIZE = 404  # the tiles of both levels reach out of it
 VIEW = View("seen", azimuth=30, elevation=35)
-FORMS = {"cl": ["vector"], "glsl": ["group", "own"]}  # those that a processor's compiler gets right in a few seconds
 SHUFFLES = "opencl:intel"  # its compiler has the exchanges of "warp"
+FORMS = {  # by the kind of device, or the device: who has the lanes, where a compiler gets that right in a few seconds
+    ("opencl", "torus", "float32"): "vector",
+    ("opencl", "sphere", "float64"): "vector",
+    ("opengl", "torus", "float32"): "own",
+    ("opengl", "sphere", "float64"): "group",
+    (SHUFFLES, "sphere", "float32"): "warp",
+}
 
 
 def outputs_of(launch):
@@ -31,30 +39,35 @@ def stated(name, device, surface, precision):
     return plugin.method, plugin.folder, plugin.variant({}), surface, precision, device.language
 
 
-@pytest.mark.parametrize(("name", "precision"), [("torus", "float32"), ("sphere", "float64")])
-def test_every_form_of_the_lanes_answers_as_each_ray_alone(device, name, precision):
-    if precision == "float64" and not device.info.float64:
-        pytest.skip("no float64 here")
-    surface = surfaces.get(name)
+def device_for(kind, precision):
+    """A device whose name begins so and that has the precision; for float64 the last one, for float32 the first."""
+    found = [
+        info for info in usable_devices() if info.name.startswith(kind) and (precision == "float32" or info.float64)
+    ]
+    if not found:
+        pytest.skip(f"no {kind} with {precision} here")
+    return opened(found[0 if precision == "float32" else -1].name)
+
+
+@pytest.mark.parametrize("case", FORMS, ids=lambda case: f"{FORMS[case]}-{case[1]}-{case[2]}")
+def test_every_form_of_the_lanes_answers_as_each_ray_alone(case):
+    kind, name, precision = case
+    lanes, device, surface = FORMS[case], device_for(kind, precision), surfaces.get(name)
     camera = camera_for(VIEW, surface)
     alone = method_program(*stated("bernstein", device, surface, precision), "camera")
     expected = hits_from(outputs_of(launch_camera(device, alone, device.build(alone), camera, SIZE)))
     hit = expected.status == RayStatus.HIT
-    more = ["warp"] if device.info.name == SHUFFLES and name == "sphere" else []
-    for lanes in (*FORMS[device.language], *more):
-        tiled = stated("tiles", device, surface, precision)
-        programs = [method_program(*tiled, stage, lanes=lanes) for stage in ("isolate", "finish", "packets", "rest")]
-        built = [device.build(program) for program in programs]
-        hits, stages = tile_hits_from(
-            outputs_of(frame_of(tuple(programs), surface, camera, SIZE).launch(device, built))
-        )
-        assert np.array_equal(hits.status, expected.status), lanes
-        assert np.abs(hits.t - expected.t)[hit].max() < 2e-5 * surface.domain.radius, lanes
-        shares = np.bincount(stages, minlength=6) / SIZE**2
-        assert 0.15 < shares[:2].sum() < 0.5, (lanes, shares)  # empty
-        assert 0.4 < shares[2:4].sum() < 0.8, (lanes, shares)  # single
-        assert shares[4:].sum() < 0.12, (lanes, shares)
-        assert (shares[4] == 0) == (lanes != "vector"), (lanes, shares)
+    tiled = stated("tiles", device, surface, precision)
+    programs = [method_program(*tiled, stage, lanes=lanes) for stage in ("isolate", "finish", "packets", "rest")]
+    built = [device.build(program) for program in programs]
+    hits, stages = tile_hits_from(outputs_of(frame_of(tuple(programs), surface, camera, SIZE).launch(device, built)))
+    assert np.array_equal(hits.status, expected.status)
+    assert np.abs(hits.t - expected.t)[hit].max() < 2e-5 * surface.domain.radius
+    shares = np.bincount(stages, minlength=6) / SIZE**2
+    assert 0.15 < shares[:2].sum() < 0.5, shares  # empty
+    assert 0.4 < shares[2:4].sum() < 0.8, shares  # single
+    assert shares[4:].sum() < 0.12, shares
+    assert (shares[4] == 0) == (lanes != "vector"), shares
 
 
 def test_a_device_that_is_no_processor_has_lanes_of_its_own():

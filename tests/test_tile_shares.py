@@ -102,13 +102,13 @@ def test_a_slope_that_interpolation_gets_wrong_ends_no_refinement():
     assert shares["single_8"] > 0.2 and differ == 0.0
 
 
-BREAKS = {  # what is broken, where it shows, and there the ranges as in RANGES, of windows of images of 1024 pixels
+BREAKS = {  # what is broken, the window where it shows and the image's pixels, and there the ranges as in RANGES
     "a path that is lost leaves tiles open": (
-        ("barth_decic", 0.5, STEP, f"{STEP} inner = OPEN;"),
-        ((0.0, 0.0), (0.49, 0.57), (0.43, 0.51)),
+        ("barth_sextic", 0.3, PIXELS, STEP, f"{STEP} inner = OPEN;"),
+        ((0.12, 0.16), (0.34, 0.40), (0.46, 0.53)),
     ),
     "no bound of the remainder": (
-        ("sixteen_ball", 0.3, "return bound;", "return 0.0 * bound;"),
+        ("sixteen_ball", 0.3, 1024, "return bound;", "return 0.0 * bound;"),
         ((0.0, 0.0), (0.57, 0.62), (0.38, 0.43)),
     ),
 }
@@ -116,11 +116,11 @@ BREAKS = {  # what is broken, where it shows, and there the ranges as in RANGES,
 
 @pytest.mark.parametrize("name", BREAKS)
 def test_a_break_that_leaves_answers_right_shows_in_the_shares(name):
-    (named, aside, *edit), ranges = BREAKS[name]
+    (named, aside, pixels, *edit), ranges = BREAKS[name]
     surface = surfaces.get(named)
-    camera = window(surface, aside, 1024)
+    camera = window(surface, aside, pixels)
     shares, differ = cast(surface, camera)
-    assert differ == 0.0
+    assert differ < 1e-3  # rays that graze the surface, of which the first window has three
     assert within(shares, ranges), shares
     shares, _ = cast(surface, camera, *edit)
     assert not within(shares, ranges), shares

@@ -24,6 +24,7 @@ from harness.kernels.assemble import method_program
 from harness.plugins import find_methods
 from harness.results import pictures_file
 from harness.results.store import Store
+from harness.running import trace
 from harness.running.trace import Caster, cast
 from harness.scenes.camera import camera_for, rays_of
 
@@ -221,9 +222,15 @@ def test_what_tiles_cannot_do_is_refused_in_one_sentence(tmp_path, monkeypatch):
         )
 
 
-def test_a_shot_of_tiles_is_the_image_of_listed_rays(monkeypatch):
-    device = opened(usable_devices()[-1].name)
-    monkeypatch.setattr(kernels, "stage_program", tile_stand_in.stage_program)
+def test_a_shot_of_tiles_is_the_image_of_listed_rays_and_has_the_devices_form_of_lanes(monkeypatch):
+    device, made = opened(usable_devices()[-1].name), []
+
+    def stage_program(*stated):
+        made.append(stated[-1])
+        return tile_stand_in.stage_program(*stated)
+
+    monkeypatch.setattr(kernels, "stage_program", stage_program)
+    monkeypatch.setattr(trace, "discover_devices", lambda _: [dataclasses.replace(device.info, resident=2048)])
     catalog, camera = find_methods(), camera_for(VIEW, TORUS)
     catalog.plugins["stand_in"] = dataclasses.replace(catalog.get(METHOD), method=tile_stand_in.stand_in())
     shots = [
@@ -231,6 +238,7 @@ def test_a_shot_of_tiles_is_the_image_of_listed_rays(monkeypatch):
         for plugin in (catalog.get("stand_in"), catalog.get(METHOD))
     ]
     assert same(*shots)
+    assert set(made) == {"group"}
     plugin = catalog.get("stand_in")
     with pytest.raises(FirsthitError, match="casts the tiles of a camera's image, and listed rays have none"):
         cast(Caster(plugin, plugin.variant({}), device.info.name), TORUS, rays_of(camera, 20))

@@ -125,11 +125,34 @@ max_wrong_share = 1.0
 seconds = 0.002
 rounds = 1
 """
-PARTS = {"beamcasting-tables": CAST, "szente-table5": SEEN, "toledo-table1": DRAWN}
+MOVED = """title = "A camera's path"
+surfaces = ["sphere"]
+sizes = [16]
+devices = {devices}
+
+[[method]]
+name = "newton"
+
+[path]
+frames = 3
+azimuth = 30
+elevation = 35
+turn = 90
+
+[accuracy]
+size = 4
+
+[budget]
+seconds = 0.002
+rounds = 1
+"""
+PARTS = {"beamcasting-tables": CAST, "szente-table5": SEEN, "toledo-table1": DRAWN, "a-path": MOVED}
 
 
 def make(folder: Path, opencl: str, opengl: str) -> Path:
-    """Run all configs on two devices, families and origins on the first alone; return the collecting run's folder.
+    """Run all configs on two devices, families, origins and paths on the first alone.
+
+    Returns the folder of the run that collects them.
 
     Cells fail on purpose, so that the command ends with 3. Fails where the command ends otherwise.
     """
@@ -138,7 +161,7 @@ def make(folder: Path, opencl: str, opengl: str) -> Path:
     (method / "method.py").write_text(UNCOMPILED)
     (method / "kernel.glsl").write_text(KERNEL)
     for name, text in PARTS.items():
-        devices = [opencl] if text is SEEN else [opencl, opengl]
+        devices = [opencl] if text in (SEEN, MOVED) else [opencl, opengl]
         (folder / f"{name}.toml").write_text(text.format(devices=str(devices).replace("'", '"')))
     names = ", ".join(f'"{name}.toml"' for name in PARTS)
     (folder / "all.toml").write_text(f'title = "Every kind"\ninclude = [{names}]\n')

@@ -69,6 +69,7 @@ class Engine:
         self._stopped = False
         self._told: set[str] = set()
         self._last_change = time.monotonic()
+        self._begun = self._looked = 0  # looks at the scheduler: how many began, and which one ended last
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._watch, daemon=True)
         self._thread.start()
@@ -155,6 +156,17 @@ class Engine:
             place.busy = False
             self._changed.notify_all()
 
+    def look_again(self, place: Place | None = None) -> None:
+        """Return once a look at the scheduler has ended that began after this, or a place is known to be lost.
+
+        So what failed a moment ago is not tried again with a worker that has gone. Raises as `check` does.
+        """
+        with self._changed:
+            begun = self._begun
+            while self._looked <= begun and (place is None or place.gone is None):
+                self.check()
+                self._changed.wait(LOOK_SECONDS)
+
     def _listed(self) -> Iterator[Place]:
         """Yield the places that are there. Of two workers with one device of a machine, one counts."""
         there = [place for worker in self._workers.values() for place in worker.places]
@@ -169,7 +181,10 @@ class Engine:
     def _watch(self) -> None:
         while not self._ended.wait(LOOK_SECONDS):
             try:
+                self._begun += 1
                 told = self._client.sync(self._client.scheduler.identity, callback_timeout=ANSWER_SECONDS)
+                if self._client.status != "running":  # it would keep what is submitted until it is connected, if ever
+                    raise OSError(f"the client is {self._client.status}")
                 self._seen(told["workers"])
             except Exception as error:  # whatever a connection that was lost raises, and one that is half made
                 if not self._ended.is_set():
@@ -185,10 +200,10 @@ class Engine:
                 self._lose(self._workers.pop(address), "its worker has gone")
             for address, told in listed.items():
                 worker = self._workers.get(address)
-                if worker is None:
+                if worker is None or (worker.silent and told["last_seen"] != worker.seen):  # it is new, or is back
                     worker = self._workers[address] = _Worker(self._asked(address, told["resources"]))
                 if told["last_seen"] != worker.seen:
-                    worker.seen, worker.since, worker.silent = told["last_seen"], now, False
+                    worker.seen, worker.since = told["last_seen"], now
                 elif now - worker.since > SILENT_SECONDS and not worker.silent:
                     worker.silent = True
                     self._lose(worker, f"its worker gave no sign of life for {SILENT_SECONDS:.0f} s")
@@ -197,6 +212,7 @@ class Engine:
             for address, worker in self._workers.items():
                 if worker.asked is not None and worker.asked.done():
                     self._hear(address, worker, listed[address])
+            self._looked = self._begun
             self._changed.notify_all()
 
     def _asked(self, address: str, resources: dict[str, float]) -> Any:
@@ -212,6 +228,9 @@ class Engine:
         try:
             said = future.result(timeout=ANSWER_SECONDS)
         except Exception as error:  # whatever its Python, its packages or its firsthit raise
+            if future.status != "error":  # its answer was lost on the way
+                worker.asked = self._asked(address, told["resources"])
+                return
             why = f"it cannot say what it has: {type(error).__name__}: {error}"
             self._say(f"the worker {told['name']} is left out: {why}")
             return
@@ -255,7 +274,7 @@ class Engine:
             try:
                 self._client = self._connect()
                 break
-            except OSError:
+            except Exception:  # OSError for the most part; a scheduler that just begins or ends makes Dask raise others
                 if time.monotonic() > end:
                     self._give_up()
                     return

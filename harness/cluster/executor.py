@@ -119,6 +119,7 @@ class ClusterExecutor:
                     answer = hold.step(operation, plain, arguments, released)
                 except Lost as error:
                     lost = str(error)
+                    self._engine.look_again(hold.place)
                     self._drop()
                 else:  # a place that was lost before it answered anything is no move
                     self._moves, self._came = self._moves + self._came, False

@@ -10,6 +10,7 @@ import pickle
 import re
 import socket
 import threading
+import weakref
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -86,6 +87,7 @@ class Holder:
 
     def __init__(self, timeout: float, share: float) -> None:
         self._executor = LocalExecutor(timeout, share)
+        weakref.finalize(self, self._executor.kill)  # where the client has gone, and Dask drops this
 
     def step(self, request: bytes) -> bytes:
         """Take a step, and return what became of it, pickled.

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import pickle
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -71,13 +73,14 @@ class Hold:
     share: float
     connect: Callable[[], Any]
     stop: Callable[[], None]
+    _made: Any = field(default=None, init=False)  # Dask's future of the actor that holds the device
     _actor: Any = field(default=None, init=False)
-    _future: Any = field(default=None, init=False)
+    _loop: Any = field(default=None, init=False)  # the client's, where all that is asked is sent
 
     def step(self, operation: str, device: str, arguments: tuple[Any, ...], released: list[str]) -> Any:
         """Take a step there and return its result. Raises CellError as executors do, Cold, and Lost."""
         request = pickle.dumps((operation, (device, *arguments), self.place.software, released), -1)
-        said = pickle.loads(self._waited(lambda: self._held().step(request)))
+        said = pickle.loads(self._waited(self._asked(request)))
         if said[0] == "ok":
             return said[1]
         if said[0] == "cold":
@@ -88,32 +91,49 @@ class Hold:
         """End the process there, as far as the worker can be reached."""
         if self._actor is not None and self.place.gone is None:
             with contextlib.suppress(Lost):
-                self._waited(self._actor.close)
-        self._actor = self._future = None
+                self._waited(self._closed())
+        self._actor = self._made = None
 
-    def _held(self) -> Any:
-        """Return the actor that holds the device, which is made there when this is first called."""
+    async def _asked(self, request: bytes) -> Any:
         if self._actor is None:
-            name, where = f"firsthit-holder-{uuid.uuid4().hex}", [self.place.address]
-            options: dict[str, Any] = {"key": name, "workers": where, "actor": True, "pure": False}
-            self._future = self.connect().submit(Holder, self.timeout, self.share, **options)
-            self._actor = self._waited(lambda: self._future)
-        return self._actor
+            self._actor = await self._made
+        return await self._actor.step(request)
 
-    def _waited(self, begun: Callable[[], Any]) -> Any:
-        """Return the result of what was begun, or raise Lost once the worker is not there any more."""
-        from dask.distributed import TimeoutError as Late
+    async def _closed(self) -> Any:
+        return await self._actor.close()
 
+    def _begun(self, asked: Coroutine[Any, Any, Any]) -> Future[Any]:
+        """Send what is asked; the process that holds the device is started when this is first called."""
         try:
-            future = begun()
-            while True:
-                try:
-                    return future.result(timeout=LOOK_SECONDS)
-                except (Late, TimeoutError):
+            if self._made is None:
+                client, name = self.connect(), f"firsthit-holder-{uuid.uuid4().hex}"
+                options: dict[str, Any] = {"key": name, "workers": [self.place.address], "actor": True, "pure": False}
+                self._loop = client.loop.asyncio_loop
+                self._made = client.submit(Holder, self.timeout, self.share, **options)
+            return asyncio.run_coroutine_threadsafe(asked, self._loop)
+        except BaseException:
+            asked.close()
+            raise
+
+    def _waited(self, asked: Coroutine[Any, Any, Any]) -> Any:
+        """Return the answer to what is asked, or raise Lost once the worker is not there any more."""
+        try:
+            answer = self._begun(asked)
+            try:
+                while True:
+                    try:
+                        return answer.result(LOOK_SECONDS)
+                    except TimeoutError:
+                        if answer.done():
+                            return answer.result()  # which may raise TimeoutError, of Dask's own
                     self.stop()
                     if self.place.gone is not None:
-                        raise Lost(self.place.gone) from None
-        except (Lost, CellError):
+                        raise Lost(self.place.gone)
+                    if self._made.status not in ("pending", "finished"):  # Dask does not tell those who wait
+                        raise Lost(f"its worker does not hold the device any more ({self._made.status})")
+            finally:
+                answer.cancel()
+        except Lost:
             raise
         except Exception as error:  # what the connection, the scheduler and Dask raise where something is lost
             raise Lost(self.place.gone or f"its worker does not answer ({type(error).__name__}: {error})") from None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import os
 import sys
 import threading
@@ -19,18 +20,33 @@ from harness.cluster.holder import MACHINE
 from harness.hosting import process
 
 PRELOAD = "harness.cluster.serving"  # its dask_setup, in the worker's process
+QUIET = {  # what Dask does by itself in a worker, 100 times a second, 50 times and 2: a timed step would hear it
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "5s",
+}
 
 
 def dask_setup(_worker: Any) -> None:
     """End the worker's process with its nanny's; Dask calls this where the worker starts."""
     process.die_with_parent()
+    hush()
+
+
+def hush() -> None:
+    """Let loggers that get a level of their own where Dask is imported write as little as the rest of it."""
+    for name in ("distributed.client", "tornado.application"):
+        logging.getLogger(name).setLevel(logging.getLogger("distributed").level)
 
 
 async def serve(address: str, name: str, resources: dict[str, float], machine: str, asked: Connection) -> None:
     """Serve the scheduler at an address until it, or the worker's nanny, has ended, or the other end of `asked`."""
     os.environ[MACHINE] = machine
+    import dask
     from distributed import Nanny
 
+    hush()
+    dask.config.set(QUIET)  # the nanny hands it to the worker
     stated: dict[str, Any] = {"name": name, "resources": resources, "preload": [PRELOAD]}
     async with Nanny(address, nthreads=1, memory_limit=0, dashboard=False, **stated) as nanny:
         loop, told = asyncio.get_running_loop(), asyncio.Event()
@@ -47,9 +63,17 @@ def _listen(asked: Connection, loop: asyncio.AbstractEventLoop, told: asyncio.Ev
 
 
 def main(stated: str, handle: str) -> None:
-    """Run the worker that `stated` says as JSON, with the names of serve's parameters, until `handle` is closed."""
+    """Run the worker that `stated` says as JSON, with the names of serve's parameters, until `handle` is closed.
+
+    Exits with 1 where Dask cannot start it, as where its process is killed while it starts; the supervisor tells that.
+    """
     process.die_with_parent()
-    asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
+    try:
+        asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
+    except Exception as error:  # whatever Dask raises
+        while error.__cause__ is not None:  # the last one says only that it could not be started
+            error = error.__cause__  # type: ignore[assignment]
+        sys.exit(f"firsthit: a worker could not be started: {type(error).__name__}: {error}")
 
 
 if __name__ == "__main__":

@@ -9,12 +9,13 @@ from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from harness.cluster import admission
-from harness.cluster.engine import Engine
+from harness.cluster.engine import ANSWER_SECONDS, Engine
 from harness.cluster.holder import CORES, answer
 from harness.contract import FirsthitError
 from harness.spreading import Spread
 
-LOOK_SECONDS = 0.25
+LOOK_SECONDS = 0.25  # between two looks whether the cluster is still there
+TRIES = 5  # in a row that find nothing, after which work is given up
 WORTH_SECONDS = 0.2  # of one core's work that are worth sending
 C = TypeVar("C")
 A = TypeVar("A")
@@ -50,40 +51,63 @@ class ClusterSpread:
 
     def _answers(self, tasks: Sequence[bytes]) -> list[Any]:
         found: dict[int, Any] = {}
+        failed = 0  # tries in a row that found nothing, while the scheduler was there
         while len(found) < len(tasks):
             if not self._engine.waited(self._engine.cores):
                 told = f"no worker that takes work of the oracle came within {self._engine.patience:.0f} s"
                 raise FirsthitError(f"{told}; `firsthit worker` starts them, but for --cores 0", exit_code=3)
-            self._try(tasks, found)
+            client, before = self._engine.client, len(found)
+            problem = self._try(client, tasks, found)
+            failed = failed + 1 if problem and client is self._engine.client and len(found) == before else 0
+            if failed == TRIES:
+                told = f"the cluster did not take work of the oracle {TRIES} times; the last time: {problem}"
+                raise FirsthitError(told, exit_code=3)
+            if problem:
+                self._engine.look_again()
         return [found[place] for place in range(len(tasks))]
 
-    def _try(self, tasks: Sequence[bytes], found: dict[int, Any]) -> None:
-        """Add the answers that are not `found` yet; some are missing where the scheduler was lost."""
-        from dask.distributed import TimeoutError as Late
-        from dask.distributed import wait
+    def _try(self, client: Any, tasks: Sequence[bytes], found: dict[int, Any]) -> str | None:
+        """Add the answers that are not `found` yet; where some were lost on the way, return what Dask said of that.
 
-        left = [place for place in range(len(tasks)) if place not in found]
-        names = {place: f"firsthit-answer-{hashlib.sha256(tasks[place]).hexdigest()[:32]}" for place in left}
+        Raises what a task raised.
+        """
+        from dask.distributed import KilledWorker
+
+        raised: BaseException | None = None
         try:
-            client = self._engine.client
-            futures = {
-                place: client.submit(answer, tasks[place], key=names[place], resources={CORES: 1}) for place in left
-            }
-            while True:
-                try:
-                    wait(list(futures.values()), timeout=LOOK_SECONDS)  # type: ignore[no-untyped-call]
-                    break
-                except (Late, TimeoutError):
-                    self._engine.check()
-                    if client is not self._engine.client or not self._engine.cores():
-                        break
+            futures = {}
+            for place, task in enumerate(tasks):
+                if place not in found:
+                    name = f"firsthit-answer-{hashlib.sha256(task).hexdigest()[:32]}"
+                    futures[place] = client.submit(answer, task, key=name, resources={CORES: 1})
             for place, future in futures.items():
-                if future.status == "finished":
-                    found[place] = pickle.loads(future.result(timeout=LOOK_SECONDS))
-                elif future.status == "error":
-                    raise future.exception()
-        except (OSError, Late, TimeoutError):  # the scheduler was lost
+                if not self._ended(client, future):
+                    return None
+                if future.status == "error":
+                    raised = future.exception(timeout=ANSWER_SECONDS)
+                    break
+                found[place] = pickle.loads(future.result(timeout=ANSWER_SECONDS))
+        except Exception as error:  # what Dask raises where the scheduler was lost, or a worker with its answer
             self._engine.check()
+            return f"{type(error).__name__}: {error}"
+        if isinstance(raised, KilledWorker):
+            raise FirsthitError("each worker that took this work of the oracle was lost", exit_code=3)
+        if raised is not None:
+            raise raised
+        return None
+
+    def _ended(self, client: Any, future: Any) -> bool:
+        """Wait for a task; return False where the cluster that had it was lost."""
+        from dask.distributed import TimeoutError as Late
+
+        while future.status == "pending":
+            try:
+                future.exception(timeout=LOOK_SECONDS)
+            except (Late, TimeoutError):
+                self._engine.check()
+                if client is not self._engine.client or not self._engine.cores():
+                    return False
+        return True
 
     def _result(self, said: Any, function: Callable[[C], A], chunk: C) -> A:
         if said[0] == "raised":

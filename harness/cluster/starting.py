@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import spreading
-from harness.cluster import holder, slurm
+from harness.cluster import holder, serving, slurm
 from harness.cluster.engine import PATIENCE_SECONDS, Engine
 from harness.cluster.fleet import ANY, ClusterFleet
 from harness.cluster.spread import ClusterSpread
@@ -20,6 +20,7 @@ from harness.cluster.supervisor import Supervisor
 from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.host import cores
+from harness.running.run import Read
 
 CONNECT_SECONDS = 30.0
 LOOK_SECONDS = 0.5  # between two looks at this machine's workers
@@ -30,14 +31,15 @@ _PLACE = re.compile(r"(?:(?:tcp|tls|ws|wss)://)?(?:\[[0-9A-Fa-f:.]+\]|[\w.-]+):\
 
 
 @contextlib.contextmanager
-def opened(text: str, wanted: Collection[str], tell: Tell) -> Iterator[ClusterFleet]:
-    """Open a cluster for a block: HOST:PORT of a scheduler, local[:N], or a TOML file for Slurm.
+def opened(text: str, given: Read, tell: Tell) -> Iterator[ClusterFleet]:
+    """Open a cluster for the run of a config in a block: HOST:PORT of a scheduler, local[:N], or a TOML file for Slurm.
 
-    `wanted` are the words by which configs name devices; `tell` hears of what is started, lost and found again. While
-    the block runs, the cluster's cores take the oracle's work. What was started for it is ended after it. Raises
-    FirsthitError where the text says no cluster, Dask is missing, or nothing answers.
+    `tell` hears of what is started, lost and found again. While the block runs, the cluster's cores take the oracle's
+    work. What was started for it is ended after it. Raises FirsthitError where the text says no cluster, Dask is
+    missing, or nothing answers.
     """
     need_dask("--cluster")
+    wanted = list(dict.fromkeys(name for part in given.parts for name in part.wanted_devices()))
     with _opened(text, wanted, tell) as fleet, spreading.over(ClusterSpread(fleet.engine, spreading.taker())):
         yield fleet
 
@@ -79,6 +81,7 @@ def _watched(address: Any, told: str, tell: Tell) -> Iterator[Engine]:
     def connect() -> Any:
         from dask.distributed import Client
 
+        serving.hush()
         return Client(address, timeout=CONNECT_SECONDS)  # type: ignore[no-untyped-call]
 
     try:
@@ -117,7 +120,8 @@ def kept_running(supervisor: Supervisor) -> Iterator[None]:
 
     def look() -> None:
         while not ended.wait(LOOK_SECONDS):
-            supervisor.look()
+            with contextlib.suppress(FirsthitError):  # one cannot be started now, as where memory is short
+                supervisor.look()
 
     thread = threading.Thread(target=look, daemon=True)
     thread.start()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
+import signal
 import subprocess
 import time
 from collections.abc import Callable, Sequence
@@ -17,7 +19,8 @@ from harness.hosting import process
 AGAIN_SECONDS = 1.0  # before a worker that ended is started again
 END_SECONDS = 5.0  # for workers to end by themselves
 STEADY_SECONDS = 60.0  # a worker that ran so long did not end for the same reason as the one before
-STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
+# A session of its own makes a group of all that a worker starts, also of what it started when it was killed
+STARTED: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "start_new_session": True}
 
 
 @dataclass(eq=False)
@@ -65,7 +68,7 @@ class Supervisor:
         for started, _ in running:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 started.wait(max(0.0, end - time.monotonic()))
-            started.kill()
+            _kill_group(started)
             started.wait()
         for worker in self._workers:
             worker.running = None
@@ -73,14 +76,23 @@ class Supervisor:
     def _start(self, worker: _Worker) -> None:
         stated = {"address": self._address, "machine": self._machine}
         text = json.dumps({"name": worker.name, "resources": worker.resources, **stated})
-        worker.running = process.start("harness.cluster.serving", [text], f"the worker {worker.name}", STREAMS)
+        worker.running = process.start("harness.cluster.serving", [text], f"the worker {worker.name}", STARTED)
         worker.since = time.monotonic()
 
     def _ended(self, worker: _Worker, code: int) -> None:
         assert worker.running
         worker.running[1].close()
+        _kill_group(worker.running[0])
         worker.running = None
         if not worker.told:
             worker.told = True
             why = "its scheduler has gone" if code == 0 else f"exit code {code}"
             self._tell(f"the worker {worker.name} has ended ({why}); started again, it waits for {self._address}")
+
+
+def _kill_group(started: subprocess.Popen[bytes]) -> None:
+    """Kill a process and all that it started, as far as they are there."""
+    if hasattr(os, "killpg"):
+        with contextlib.suppress(OSError):
+            os.killpg(started.pid, signal.SIGKILL)
+    started.kill()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +26,6 @@ from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
 from harness.running.failures import first_line
-from harness.running.fleet import Fleet
 from harness.running.run import Loaded, Read, load, read, remarks, run
 
 FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; reports.for_papers.files writes them
@@ -198,17 +196,11 @@ def _run(options: argparse.Namespace) -> int:
     given = _read(options, printer)
     with contextlib.ExitStack() as held:
         if options.cluster is not None:
-            again["fleet"] = held.enter_context(_cluster(options.cluster, given, printer))
+            from harness.cluster import starting
+
+            again["fleet"] = held.enter_context(starting.opened(options.cluster, given, printer.warned))
         found = run(given, options.runs, typed(), watcher=printer, **again)
     return 3 if found.unfinished or found.lost else 0
-
-
-def _cluster(where: str, given: Read, printer: Printer) -> AbstractContextManager[Fleet]:
-    """Open the cluster that --cluster names, for the devices of a config."""
-    from harness.cluster import starting
-
-    wanted = dict.fromkeys(name for part in given.parts for name in part.wanted_devices())
-    return starting.opened(where, list(wanted), printer.warned)
 
 
 def _why(options: argparse.Namespace) -> int | Answer:

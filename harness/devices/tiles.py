@@ -218,19 +218,16 @@ class TileCheck(HitsCheck[TileAnswer]):
 
 @dataclass(frozen=True, eq=False)
 class TileHits(Check[Hits]):
-    """State what TileCheck does, and read no more than the hits of the listed rays."""
+    """State what a check of listed rays does, and read no more than their hits."""
 
-    frame: TileFrame
-    rays: NDArray[np.float32]
-    ratio: int
-    index: NDArray[np.intp]
+    whole: TileCheck
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        return self.frame.stages
+        return self.whole.programs
 
     def run(self, device: Device, built: Sequence[Built]) -> Hits:
-        return TileCheck(self.frame, self.rays, self.ratio, self.index).run(device, built).hits
+        return self.whole.run(device, built).hits
 
 
 @dataclass(frozen=True, eq=False)

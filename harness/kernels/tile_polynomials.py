@@ -142,8 +142,11 @@ def _fit(n: int, even: Sequence[float], odd: Sequence[float], number: Callable[[
         lines.append(f"wide p{odds} = s.k{n // 2};")
 
     def row(table: Sequence[float], width: int, r: int, variable: str) -> str:
-        terms = [f"{number(table[r * width + i])} * {variable}{i}" for i in range(width) if table[r * width + i] != 0.0]
-        return " + ".join(terms)
+        used = [i for i in range(width) if table[r * width + i] != 0.0]
+        text = f"{number(table[r * width + used[0]])} * {variable}{used[0]}"
+        for i in used[1:]:
+            text = f"FUSED({number(table[r * width + i])}, {variable}{i}, {text})"
+        return text
 
     for r in range(odds):
         lines.append(f"{{ wide e = {row(even, evens, r, 'p')}; wide o = {row(odd, odds, r, 'm')};")
@@ -166,8 +169,8 @@ def _evaluate(n: int) -> list[str]:
     """Return the statements of polynomial_dual (glsl/lib/polynomial.glsl), for coefficients that hold binomials."""
     lines = [f"wide y_ = 1.0 - x; wide power_ = wide(1.0); wide slope_ = wide(0.0); v = q.k{n}; s = wide(0.0);"]
     for j in range(n - 1, -1, -1):
-        lines.append("slope_ = slope_ * y_ - power_; power_ = power_ * y_;")
-        lines.append(f"s = s * x + v + q.k{j} * slope_; v = v * x + q.k{j} * power_;")
+        lines.append("slope_ = FUSED(slope_, y_, -power_); power_ = power_ * y_;")
+        lines.append(f"s = FUSED(s, x, FUSED(q.k{j}, slope_, v)); v = FUSED(v, x, q.k{j} * power_);")
     return lines
 
 

@@ -8,17 +8,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
-from harness.kernels.sections import (
-    TileStage,
-    cast_sections,
-    early_libraries,
-    files,
-    kept_loops,
-    literal,
-    method_sections,
-    ray_sections,
-)
+from harness.contract import Language, Method, Precision, Program, Section, Surface, Variant
+from harness.kernels.sections import TileStage, files, literal
+from harness.kernels.tile_stages import StageText, lists
 
 NEED = "surface_gradient_range"  # what a method needs that isolates by ranges
 TILE = 16  # pixels along a side of the first level's tiles
@@ -38,23 +30,10 @@ def ranged_program(
     rest: Path,
 ) -> Program:
     """Return the program of one stage; the arguments are those of harness.kernels.tiles.stage_program."""
-    last = stage == "rest"
-    needs = [name for name in method.needs if name != NEED] if last else method.needs
-    sections = ray_sections(surface, needs, precision, language, early_libraries(method))
-    if language == "glsl":
-        sections.insert(1, kept_loops())
-    sections += [_shape(precision, language, listed, stage), *files("rays/camera.glsl")]
-    work = files(f"tiles/work.{language}", "tiles/lists.glsl")
-    if last:
-        sections += method_sections(method, rest, variant, surface, precision, language)
-        sections += [*cast_sections("nearest"), *work, *files("tiles/rest.glsl")]
-    else:
-        domain = "box" if isinstance(surface.domain, Box) else "sphere"
-        head = ("tiles/lanes_one.glsl", "tiles/wide.glsl")
-        sections += [*files(*head), *work, *files("tiles/alone.glsl", f"tiles/domain_{domain}.glsl")]
-        sections += method_sections(method, folder, variant, surface, precision, language, stage=stage)
-    sections += files(f"tiles/entry_{stage}.{language}")
-    return Program(language, precision, stage, tuple(sections))
+    stated = StageText(method, folder, variant, surface, precision, language, stage, rest)
+    needs = [name for name in method.needs if stage != "rest" or name != NEED]
+    own = files("tiles/lanes_one.glsl", "tiles/wide.glsl", *lists(language), "tiles/alone.glsl")
+    return stated.program(needs, _shape(precision, language, listed, stage), own)
 
 
 def _shape(precision: Precision, language: Language, listed: bool, stage: TileStage) -> Section:

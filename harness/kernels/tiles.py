@@ -22,21 +22,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
+from harness.contract import Language, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, NODES, POWERS, TABLES, half_side, interpolation, remainder_factors
-from harness.kernels.sections import (
-    Lanes,
-    TileStage,
-    cast_sections,
-    early_libraries,
-    files,
-    kept_loops,
-    literal,
-    method_sections,
-    ray_sections,
-    table_section,
-)
+from harness.kernels.sections import Lanes, TileStage, files, literal, table_section
 from harness.kernels.tile_polynomials import macros, to_control, to_powers
+from harness.kernels.tile_stages import StageText, lists
 
 STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
@@ -69,37 +59,28 @@ def stage_program(
     one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
     """
     form: Lanes = lanes or ("vector" if language == "cl" else "own")
-    sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
-    if language == "glsl":
-        sections.insert(1, kept_loops())
-    sections.append(_shape(surface, precision, language, listed, stage, form))
-    sections += files("rays/camera.glsl")
-    if stage == "rest":
-        sections += method_sections(method, rest, variant, surface, precision, language)
-        sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}", "tiles/lists.glsl", "tiles/rest.glsl")]
-    else:
-        sections += _lane_sections(stage, precision, language, form)
+    stated = StageText(method, folder, variant, surface, precision, language, stage, rest)
+    shape = _shape(surface, precision, language, listed, stage, form)
+    own: list[Section] = []
+    if stage != "rest":
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
-        sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
-        sections += files(*_net_files(stage, form))
-        domain = "box" if isinstance(surface.domain, Box) else "sphere"
-        sections += [*_lane_tables(precision, language, form), *files(f"tiles/domain_{domain}.glsl")]
-        sections += method_sections(method, folder, variant, surface, precision, language, stage=stage)
-    sections += files(f"tiles/entry_{stage}.{language}")
-    return Program(language, precision, stage, tuple(sections))
+        own = _lane_sections(stage, precision, language, form)
+        own += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
+        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form)]
+    return stated.program(("surface_value",), shape, own)
 
 
 def _lane_sections(stage: TileStage, precision: Precision, language: Language, lanes: Lanes) -> list[Section]:
     """Return the operations on lanes, the buffers, and what a stage reads and writes."""
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
-        return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
+        return files(*head, *lists(language), "tiles/alone.glsl", f"tiles/blocks.{language}")
     first, exchange = [], "exchange_own.glsl"
     if _exchanges(stage, lanes) and lanes == "group":
         first, exchange = [f"tiles/memory.{language}"], "exchange_group.glsl"
     elif _exchanges(stage, lanes):
         first, exchange = [f"tiles/exchange_warp_{precision}.{language}"], f"exchange_warp.{language}"
-    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/{exchange}", "tiles/blocks_one.glsl")
+    work = (*lists(language), f"tiles/{exchange}", "tiles/blocks_one.glsl")
     return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
@@ -109,7 +90,7 @@ def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
         return ["tiles/nets_shared.glsl"]
     if _exchanges(stage, lanes):
         return ["tiles/nets_shared.glsl", "tiles/tiles_group.glsl"]
-    return ["tiles/nets_own.glsl", "tiles/tiles_own.glsl"]
+    return ["tiles/nets_own.glsl", "tiles/alone.glsl", "tiles/tiles_own.glsl"]
 
 
 def _exchanges(stage: TileStage, lanes: Lanes) -> bool:

@@ -26,7 +26,7 @@ from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.shots import Shot, ShotKind
-from harness.kernels.assemble import Language, method_program
+from harness.kernels.assemble import STAGES, Language, lanes_on, method_program
 from harness.kernels.complaints import complaints_in
 from harness.limits import TIMEOUT, held, hold
 from harness.oracle import checked_t_min
@@ -131,11 +131,16 @@ def cast(
     assert isinstance(kind, ShotKind)  # shot_refusal refuses all others
     shot = Shot(rays, camera, dict(caster.variant.parameters), surface, t_min, caster.origin)
     where = f"{caster.variant} on {caster.device}"
+    info = _info(caster.device) if STAGES.keys() & set(kind.shot_entries) else None
     executor = LocalExecutor(caster.timeout)
 
     def programs(language: Language) -> tuple[Program, ...]:
         stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language
-        return tuple(method_program(*stated, entry, t_min=t_min, origin=caster.origin) for entry in kind.shot_entries)
+        lanes = lanes_on(language, info if language == caster.language else None)
+        return tuple(
+            method_program(*stated, entry, t_min=t_min, origin=caster.origin, lanes=lanes)
+            for entry in kind.shot_entries
+        )
 
     def launch(device: str, programs: tuple[Program, ...], index: NDArray[np.intp]) -> Hits:
         return kind.shot_hits(executor.check(device, kind.shot(programs, shot, index)).answer)
@@ -159,3 +164,8 @@ def cast(
     if doubts.note:
         tell(f"{caster.variant} on {surface.name}: {doubts.note}")
     return hits
+
+
+def _info(device: str) -> DeviceInfo | None:
+    """Look for what is known of a device, which decides how stages of tiles are made; None if it is not here."""
+    return next((info for info in discover_devices([device]) if info.name == device), None)

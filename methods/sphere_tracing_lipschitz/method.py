@@ -38,12 +38,22 @@ may jump is refused.
                                                             for the sake of close pairs of roots
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from functools import lru_cache
 from itertools import product
+from typing import TYPE_CHECKING
 
 from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Surface
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from surfaces.tape import Tape
 
 SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, of |p|, of the clip and of the table
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
@@ -51,6 +61,36 @@ MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are a
 MAX_OPERATIONS = 12_000_000  # of balls that are spent on them, which takes about a quarter of a minute
 AWAY = 2.0**-12  # of the radius
 KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # whose slopes surfaces.proofs.slopes bounds more tightly
+RATIONAL = frozenset({"var", "const", "add", "sub", "mul", "div", "neg", "sqr", "powi"})
+
+
+def steepest_of_boxes(tape: Tape, boxes: NDArray[np.float64]) -> list[float]:
+    """Return an upper bound of the length of the gradient, which `tape` computes, in each of n boxes.
+
+    `boxes`, float64[n, 2, 3], are middles and half sides. All boxes take each operation together; a bound is infinite
+    where no ball says anything.
+    """
+    import numpy as np
+
+    from harness.oracle.balls64 import GROW, UNIT, Balls, hull
+    from surfaces.numbers import Arithmetic
+    from surfaces.tape import walk
+
+    class Arrays(Arithmetic):
+        def const(self, value: Fraction) -> Balls:
+            rounded = value.numerator / value.denominator
+            return Balls(rounded, UNIT * abs(rounded))
+
+        def sqr(self, a: Balls) -> Balls:
+            least, most = np.maximum(np.abs(a.mid) - a.rad, 0.0), np.abs(a.mid) + a.rad  # tighter than a product
+            return hull(least * least / GROW, most * most * GROW)
+
+    with np.errstate(all="ignore"):  # what overflows is infinite, and says nothing
+        numbers = Arrays()
+        slopes = walk(tape, numbers, {axis: Balls(*boxes[:, :, k].T) for k, axis in enumerate("xyz")})
+        squares = [numbers.sqr(slope).upper for slope in slopes]
+        bounds = np.broadcast_to(np.sqrt(sum(squares)) * GROW, len(boxes))
+    return [bound if math.isfinite(bound) else math.inf for bound in bounds.tolist()]
 
 
 @lru_cache(maxsize=128)
@@ -81,6 +121,11 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         size = sum(numbers.sqr(slope) for slope in walk(tape, numbers, box))
         return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
+    def all_steepest(boxes: Sequence[tuple[Sequence[float], Sequence[float]]]) -> list[float]:
+        if not boxes or not all(op.name in RATIONAL for op in tape.ops):
+            return [steepest(*box) for box in boxes]
+        return [bound * SLACK for bound in steepest_of_boxes(tape, np.array(boxes))]
+
     def ball(middle: Sequence[float], half: Sequence[float]) -> int:
         """Return the number of the smallest ball that the box reaches into; `shells` where it reaches into none."""
         away = (max(abs(m - c) - h, 0.0) for m, c, h in zip(middle, center, half, strict=True))
@@ -98,11 +143,9 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     bounded = 0
     while open_boxes:
         split: list[tuple[Sequence[float], Sequence[float]]] = []
-        for middle, size in open_boxes:
-            reached = ball(middle, size)
-            if reached >= shells:
-                continue
-            bound = steepest(middle, size)
+        inside = [(box, reached) for box in open_boxes if (reached := ball(*box)) < shells]
+        steep = all_steepest([box for box, _ in inside])
+        for ((middle, size), reached), bound in zip(inside, steep, strict=True):
             bounded += 1
             if bound > CLOSE * occurring[reached] and bounded + 8 * len(split) < most:
                 split.append((middle, size))

@@ -21,11 +21,12 @@ Bicubic kept_bicubic(Work work, int place) {
 }
 
 wide cubic_value(Cubic p, wide u) {
-    return ((p.d * u + p.c) * u + p.b) * u + p.a;
+    return FUSED(FUSED(FUSED(p.d, u, wide(p.c)), u, wide(p.b)), u, wide(p.a));
 }
 
 wide bicubic_value(Bicubic p, wide u, wide v) {
-    return ((cubic_value(p.r3, u) * v + cubic_value(p.r2, u)) * v + cubic_value(p.r1, u)) * v + cubic_value(p.r0, u);
+    return FUSED(FUSED(FUSED(cubic_value(p.r3, u), v, cubic_value(p.r2, u)), v, cubic_value(p.r1, u)), v,
+                 cubic_value(p.r0, u));
 }
 
 // Stage 2. Pixels of single tiles: bicubic interpolation of the nodes' roots, and then f itself.
@@ -33,7 +34,8 @@ void finish_tiles(Work work, Frame frame) {
     int across = tiles_across(work.size, work.tile);
     int total = counted(work, 4 * work.level + 1);
     int list = QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across;
-    real half_side = 0.5 * real(work.tile - 1) + WIDER;
+    real middle = 0.5 * real(work.tile - 1);  // of a tile, in pixels
+    real scale = 1.0 / (middle + WIDER);
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     int wide_blocks = work.tile / BLOCK_WIDTH;
     int blocks = work.tile * work.tile / 16;
@@ -62,17 +64,21 @@ void finish_tiles(Work work, Frame frame) {
             int j0 = (cell / across) * work.tile + bj;
             if (i0 >= work.size || j0 >= work.size) continue;
             Pencil rays = pencil_of(work, frame, i0, j0);
-            wide u = (lane_row(LANE_X, 0) + (real(bi) - 0.5 * real(work.tile - 1))) / half_side;
-            wide v = (lane_row(LANE_Y, 0) + (real(bj) - 0.5 * real(work.tile - 1))) / half_side;
-            // in the nodes' planes, which lean, the place and the depth are `grown` times those in planes of one depth
-            wide deeper = lean_x * u + lean_y * v;
-            wide grown = 1.0 / (1.0 - deeper);
-            u = u * grown * shrunk;
-            v = v * grown * shrunk;
+            wide u = (lane_row(LANE_X, 0) + (real(bi) - middle)) * scale;
+            wide v = (lane_row(LANE_Y, 0) + (real(bj) - middle)) * scale;
+            wide begin = rays.base;
+            wide length = rays.length;
+            if (shrunk < 1.0) {
+                // in planes that lean, the place and the depth are `grown` times those in planes of one depth
+                wide deeper = lean_x * u + lean_y * v;
+                wide grown = 1.0 / (1.0 - deeper);
+                u = u * grown * shrunk;
+                v = v * grown * shrunk;
+                begin = begin + frame.middle * deeper * grown * length;
+                length = grown * length;
+            }
             wide root = bicubic_value(roots, u, v);
             wide g = bicubic_value(slopes, u, v);
-            wide begin = rays.base + frame.middle * deeper * grown * rays.length;
-            wide length = grown * rays.length;
             wide a = begin + start * length - slack;
             wide b = begin + stop * length + slack;
             Refined found = refined(work, rays, begin + root * length, a, b, g * length, NOT(NOWHERE));

@@ -183,10 +183,7 @@ int single_bits(int above, int below) {
 void isolate_tiles(Work work, Frame frame) {
     Bundle stack[HALVINGS];
     int across = tiles_across(work.size, work.tile);
-    bool first = work.level == 0;
-    int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
-    int above_across = tiles_across(work.size, 2 * work.tile);
-    int above = tiles_before(work.size, 2 * work.tile);
+    int total = tiles_to_take(work);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     real widest_allowed = N > 4 ? ASIDE * real(1 << (TABLES - 1)) * (2.0 * TABLE_HALF) / real(GRID) : REAL_INFINITY;
@@ -198,26 +195,17 @@ void isolate_tiles(Work work, Frame frame) {
     int all_fits = 0;
     int all_pieces = 0;
     for (int turn = 0;; turn++) {
-        int taken = next_tile(work, TAKEN + work.level, turn);
-        if (taken >= total) break;
-        int cell_x = taken % across;
-        int cell_y = taken / across;
-        real start = -REAL_INFINITY;
-        real stop = REAL_INFINITY;
-        int spent = 0;
-        if (!first) {
-            int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
-            int record = (OPEN_RECORD + SINGLE_RECORD) * above + OPEN_RECORD * (taken >> 2);
-            cell_x = 2 * (parent % above_across) + (taken & 1);
-            cell_y = 2 * (parent / above_across) + ((taken >> 1) & 1);
-            start = entry_at(work, record);
-            stop = entry_at(work, record + 1);
-            spent = int(entry_at(work, record + 2));
-        }
-        if (cell_x >= across || cell_y >= across) continue;
-        int cell = cell_y * across + cell_x;
-        int i0 = cell_x * work.tile;
-        int j0 = cell_y * work.tile;
+        int number = next_tile(work, TAKEN + work.level, turn);
+        if (number >= total) break;
+        Taken taken = taken_tile(work, number);
+        if (taken.x >= across || taken.y >= across) continue;
+        bool first = taken.record < 0;
+        real start = first ? -REAL_INFINITY : entry_at(work, taken.record);
+        real stop = first ? REAL_INFINITY : entry_at(work, taken.record + 1);
+        int spent = first ? 0 : int(entry_at(work, taken.record + 2));
+        int cell = taken.y * across + taken.x;
+        int i0 = taken.x * work.tile;
+        int j0 = taken.y * work.tile;
 
         real pixels = 1.0 / real(work.size);
         real middle_x = real(2 * i0 + work.tile - work.size) * pixels;

@@ -18,33 +18,6 @@
 #define SINGLE 2
 #define OPEN 3
 
-// The camera. A ray's parameter is its depth, or what the depth exceeds `middle` by: at depth s, the ray (x, y) is at
-// eye + s (forward + x right + y up) = origin + middle (x right + y up) + (s - middle) (forward + x right + y up).
-STRUCT(Frame) struct Frame {
-    vec3 eye; vec3 forward; vec3 right; vec3 up;
-    vec3 normal;     // the depth of a point p is the inner product of p - eye and this
-    vec3 origin;     // the point at depth `middle` on the camera's axis
-    real middle;     // the depth of the domain's centre
-    real far;        // the largest depth in the domain
-    real pixel;      // the larger side of a pixel at depth 1
-};
-
-Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
-    Frame frame;
-    frame.eye = eye;
-    frame.forward = forward;
-    frame.right = right;
-    frame.up = up;
-    frame.normal = depth_normal(forward, right, up);
-    frame.middle = inner_product(difference(DOMAIN_CENTER, eye), frame.normal);
-    frame.origin = advanced_ray(make_ray(eye, forward), frame.middle).origin;
-    frame.far = frame.middle + DOMAIN_RADIUS * sqrt(inner_product(frame.normal, frame.normal));
-    real squared_right = inner_product(right, right);
-    real squared_up = inner_product(up, up);
-    frame.pixel = 2.0 * sqrt(max(squared_right, squared_up)) / real(size);
-    return frame;
-}
-
 // Bounds of a fit's errors: `off` grows with a piece's depth, `noise` does not, `unit` is one halving's per degree.
 STRUCT(Errors) struct Errors { real off; real noise; real unit; };
 
@@ -110,12 +83,14 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
     origin.y = wide(frame.eye.y);
     origin.z = wide(frame.eye.z);
     real size = real(work.size);
-    wide x = (2.0 * lane_row(LANE_X, 0) + (real(2 * i0 + 1) - size)) / size;
-    wide y = ((size - real(2 * j0 + 1)) - 2.0 * lane_row(LANE_Y, 0)) / size;
+    real share = 1.0 / size;
+    wide x = (2.0 * lane_row(LANE_X, 0) + (real(2 * i0 + 1) - size)) * share;
+    wide y = ((size - real(2 * j0 + 1)) - 2.0 * lane_row(LANE_Y, 0)) * share;
     d.x = (frame.forward.x + x * frame.right.x) + y * frame.up.x;
     d.y = (frame.forward.y + x * frame.right.y) + y * frame.up.y;
     d.z = (frame.forward.z + x * frame.right.z) + y * frame.up.z;
-    wide inverse = 1.0 / sqrt(wide_inner(d, d));
+    rays.length = sqrt(wide_inner(d, d));  // where d is at depth 1
+    wide inverse = 1.0 / rays.length;
     d.x = d.x * inverse;
     d.y = d.y * inverse;
     d.z = d.z * inverse;
@@ -126,6 +101,7 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
         ray = with_listed(work, i0, j0, ray);
         origin = ray.origin;
         d = ray.direction;
+        rays.length = 1.0 / (d.x * frame.normal.x + d.y * frame.normal.y + d.z * frame.normal.z);
     }
     vec3 center = DOMAIN_CENTER;
     rays.d = d;
@@ -133,7 +109,6 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
     rays.o.x = wide_advanced(origin.x, rays.shift, d.x);
     rays.o.y = wide_advanced(origin.y, rays.shift, d.y);
     rays.o.z = wide_advanced(origin.z, rays.shift, d.z);
-    rays.length = 1.0 / (d.x * frame.normal.x + d.y * frame.normal.y + d.z * frame.normal.z);
     rays.base = (frame.normal.x * (frame.origin.x - rays.o.x) + frame.normal.y * (frame.origin.y - rays.o.y)
                  + frame.normal.z * (frame.origin.z - rays.o.z)) * rays.length;
     return rays;
@@ -182,11 +157,11 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     // between the first ones is far from a line; a second one where the first leaves too much by its own estimate: it
     // leaves that share of itself which is left of f
     yes short_step = AT_MOST(fabs(step), wide(longest));
-    wide left = fabs(step);
+    yes enough = short_step;
     yes sloped = NOT(NOWHERE);  // steps by g are not far too short for the slope that f's values have
     real rough = UNCERTAIN * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);
     for (int turn = 0; turn < LAST_STEPS && FIRST_PAIRS > 0; turn++) {
-        if (turn > 0 && !any_lane(BOTH(looking, MORE(left, wide(tolerance))))) break;
+        if (turn > 0 && !any_lane(BOTH(looking, NOT(enough)))) break;
         wide sum = wide(0.0);
         wide bends = wide(0.0);
         wide rise = wide(0.0);
@@ -212,12 +187,14 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         // f was 0 at this place by the step before: after a short one, that is one point more
         yes known = AT_MOST(fabs(step), wide(0.25 * clear));
         wide weight = CHOOSE(known, wide(real(2 * pairs) / real(2 * pairs + 1)), wide(1.0));
-        wide secant = step / (mean - f);
-        g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
+        if (any_lane(MORE(fabs(step), wide(clear)))) {
+            wide secant = step / (mean - f);
+            g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
+        }
         step = -mean * g * weight;
         next = next + step;
-        left = fabs(step) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
-        left = CHOOSE(MORE(fabs(step), wide(0.25 * clear)), left, wide(0.0));  // a step among rounding errors
+        enough = AT_MOST(fabs(step) * min(fabs(mean), fabs(f)), tolerance * max(fabs(f), wide(REAL_TINY)));
+        enough = EITHER(enough, AT_MOST(fabs(step), wide(0.25 * clear)));  // a step among rounding errors
         f = mean;
     }
     yes seen = BOTH(seen_before, seen_behind);
@@ -230,7 +207,7 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     Refined result;
     // the signs of single values, which made [lo, hi], are less certain than the mean
     result.t = clamp(next, max(lo - longest, a), min(hi + longest, b));
-    result.good = BOTH(BOTH(BOTH(seen, sloped), short_step), AT_MOST(left, wide(FIRST_PAIRS > 0 ? tolerance : longest)));
+    result.good = BOTH(BOTH(seen, sloped), BOTH(short_step, enough));
     result.evaluations = evaluations;
     return result;
 }

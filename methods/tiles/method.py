@@ -161,7 +161,7 @@ METHOD = Method(
         Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
         Parameter(
             "APART",
-            2.0,
+            4.0,
             "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel "
             "that is cast by itself, of its ray's length in the domain",
         ),

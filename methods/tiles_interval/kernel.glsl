@@ -10,44 +10,28 @@
 #define SINGLE 2
 #define OPEN 3
 
-// The camera. A ray's parameter is its depth less `middle`, the depth of the domain's centre: the ray of the place (x, y)
-// is at origin + middle (x right + y up) + parameter (forward + x right + y up).
-STRUCT(Frame) struct Frame {
-    vec3 eye; vec3 forward; vec3 right; vec3 up;
-    vec3 normal;     // the depth of a point p is the inner product of p - eye and this
-    vec3 origin;     // the point at depth `middle` on the camera's axis
-    real middle;
-    real reach;      // the largest parameter in the domain
-    vec3 off;        // how far a computed point may be from the exact one, in each coordinate
-    vec3 turned;     // the same of a direction
-    real pixel;      // the larger side of a pixel at depth 1
-};
+// How far a computed point on one of the frame's rays may be from the exact one, in each coordinate, and a direction.
+STRUCT(Roundings) struct Roundings { vec3 point; vec3 direction; };
 
-Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
-    Frame frame;
-    frame.eye = eye;
-    frame.forward = forward;
-    frame.right = right;
-    frame.up = up;
-    frame.normal = depth_normal(forward, right, up);
-    frame.middle = inner_product(difference(DOMAIN_CENTER, eye), frame.normal);
-    frame.origin = advanced_ray(make_ray(eye, forward), frame.middle).origin;
-    frame.reach = UP * DOMAIN_RADIUS * sqrt(inner_product(frame.normal, frame.normal));
-    real far = fabs(frame.middle) + frame.reach;
+Roundings roundings_of(Frame frame) {
+    real reach = UP * frame.reach;
+    real far = fabs(frame.middle) + reach;
+    vec3 right = frame.right;
+    vec3 up = frame.up;
     vec3 aside = vec3(fabs(right.x) + fabs(up.x), fabs(right.y) + fabs(up.y), fabs(right.z) + fabs(up.z));
-    vec3 ahead = vec3(fabs(forward.x), fabs(forward.y), fabs(forward.z));
+    vec3 ahead = vec3(fabs(frame.forward.x), fabs(frame.forward.y), fabs(frame.forward.z));
     real unit = 32.0 * UNIT_ROUNDOFF;
-    frame.turned = vec3(unit * (ahead.x + aside.x), unit * (ahead.y + aside.y), unit * (ahead.z + aside.z));
-    frame.off = vec3(unit * (fabs(frame.origin.x) + far * aside.x + frame.reach * ahead.x),
-                     unit * (fabs(frame.origin.y) + far * aside.y + frame.reach * ahead.y),
-                     unit * (fabs(frame.origin.z) + far * aside.z + frame.reach * ahead.z));
-    frame.pixel = 2.0 * sqrt(max(inner_product(right, right), inner_product(up, up))) / real(size);
-    return frame;
+    Roundings result;
+    result.direction = vec3(unit * (ahead.x + aside.x), unit * (ahead.y + aside.y), unit * (ahead.z + aside.z));
+    result.point = vec3(unit * (fabs(frame.origin.x) + far * aside.x + reach * ahead.x),
+                        unit * (fabs(frame.origin.y) + far * aside.y + reach * ahead.y),
+                        unit * (fabs(frame.origin.z) + far * aside.z + reach * ahead.z));
+    return result;
 }
 
 // The rays of a square of pixels: at depth s they are at the middle ray's point plus s (u across + v down), u and v in
 // [-1, 1].
-STRUCT(Pyramid) struct Pyramid { Ray middle; vec3 across; vec3 down; };
+STRUCT(Pyramid) struct Pyramid { Ray middle; vec3 across; vec3 down; Roundings off; };
 
 // Returns the pyramid of the middles of side by side pixels, (i0, j0) the first of them, widened by WIDER.
 Pyramid pyramid_of(Frame frame, int i0, int j0, int side, int size) {
@@ -60,6 +44,7 @@ Pyramid pyramid_of(Frame frame, int i0, int j0, int side, int size) {
                               moved(moved(frame.forward, x, frame.right), y, frame.up));
     pyramid.across = vec3(wide_side * frame.right.x, wide_side * frame.right.y, wide_side * frame.right.z);
     pyramid.down = vec3(-wide_side * frame.up.x, -wide_side * frame.up.y, -wide_side * frame.up.z);
+    pyramid.off = roundings_of(frame);
     return pyramid;
 }
 
@@ -80,9 +65,9 @@ Box piece_box(Frame frame, Pyramid pyramid, real a, real b) {
     real far = frame.middle + b;
     Ray ray = pyramid.middle;
     Box box;
-    box.x = piece_coordinate(ray.origin.x, ray.direction.x, a, b, near * aside.x, far * aside.x, frame.off.x);
-    box.y = piece_coordinate(ray.origin.y, ray.direction.y, a, b, near * aside.y, far * aside.y, frame.off.y);
-    box.z = piece_coordinate(ray.origin.z, ray.direction.z, a, b, near * aside.z, far * aside.z, frame.off.z);
+    box.x = piece_coordinate(ray.origin.x, ray.direction.x, a, b, near * aside.x, far * aside.x, pyramid.off.point.x);
+    box.y = piece_coordinate(ray.origin.y, ray.direction.y, a, b, near * aside.y, far * aside.y, pyramid.off.point.y);
+    box.z = piece_coordinate(ray.origin.z, ray.direction.z, a, b, near * aside.z, far * aside.z, pyramid.off.point.z);
     return box;
 }
 
@@ -171,10 +156,10 @@ Search searched(Frame frame, Pyramid pyramid, real start, real end, real width, 
         Interval down = slope_along(g, pyramid.down);
         real sizes = interval_magnitude(across) + interval_magnitude(down);
         // how much f at a ray's point may differ from that at the middle ray's, and its slope from the middle ray's
-        real aside = UP * ((frame.middle + b) * sizes + interval_magnitude(g.x) * frame.off.x
-                           + interval_magnitude(g.y) * frame.off.y + interval_magnitude(g.z) * frame.off.z);
-        real turned = UP * (sizes + interval_magnitude(g.x) * frame.turned.x + interval_magnitude(g.y) * frame.turned.y
-                            + interval_magnitude(g.z) * frame.turned.z);
+        real aside = UP * ((frame.middle + b) * sizes + interval_magnitude(g.x) * pyramid.off.point.x
+                           + interval_magnitude(g.y) * pyramid.off.point.y + interval_magnitude(g.z) * pyramid.off.point.z);
+        real turned = UP * (sizes + interval_magnitude(g.x) * pyramid.off.direction.x + interval_magnitude(g.y) * pyramid.off.direction.y
+                            + interval_magnitude(g.z) * pyramid.off.direction.z);
         // signs are turned so that f is positive at the near end
         real side = first.lo > 0.0 ? real(1) : (first.hi < 0.0 ? real(-1) : real(0));
         if (before != 0.0) side = before;
@@ -234,7 +219,7 @@ Span span_of(Frame frame, Pyramid pyramid) {
     vec3 sum = moved(pyramid.across, 1.0, pyramid.down);
     vec3 rest = difference(pyramid.across, pyramid.down);
     real corner = sqrt(max(inner_product(sum, sum), inner_product(rest, rest)));
-    real aside = UP * (frame.middle + frame.reach) * corner + frame.off.x + frame.off.y + frame.off.z;
+    real aside = UP * UP * frame.far * corner + pyramid.off.point.x + pyramid.off.point.y + pyramid.off.point.z;
     WideVec3 o;
     o.x = pyramid.middle.origin.x;
     o.y = pyramid.middle.origin.y;
@@ -249,16 +234,11 @@ Span span_of(Frame frame, Pyramid pyramid) {
 
 // A pixel's own ray o + t d, whose origin is nearest to the domain's centre; the parameter p of a pyramid is reached at
 // t = base + p length.
-STRUCT(PixelRay) struct PixelRay { Ray ray; real shift; real base; real length; };
+STRUCT(OwnRay) struct OwnRay { Ray ray; real shift; real base; real length; };
 
-PixelRay pixel_ray(Work work, Frame frame, int i, int j) {
-    Ray ray = camera_ray(frame.eye, frame.forward, frame.right, frame.up, i, j, work.size, work.size);
-    int listed = LISTED == 1 ? listed_place(work, i, j) : -1;
-    if (listed >= 0) {
-        ray = make_ray(vec3(ray_at(work, listed), ray_at(work, listed + 1), ray_at(work, listed + 2)),
-                       vec3(ray_at(work, listed + 3), ray_at(work, listed + 4), ray_at(work, listed + 5)));
-    }
-    PixelRay result;
+OwnRay own_ray(Work work, Frame frame, int i, int j) {
+    Ray ray = pixel_ray(work, i, j);
+    OwnRay result;
     result.shift = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
     result.ray = advanced_ray(ray, result.shift);
     result.length = 1.0 / inner_product(ray.direction, frame.normal);
@@ -305,7 +285,7 @@ Refined refined(Ray ray, real sign, real from, real a, real b, real g) {
 // is in the domain. Otherwise it may lie beside it, and the pixel may be left to the last stage.
 void finish_pixel(Work work, Frame frame, int i, int j, real sign, real root, real slope, real start, real stop,
                   bool whole, int stage, int spent) {
-    PixelRay own = pixel_ray(work, frame, i, j);
+    OwnRay own = own_ray(work, frame, i, j);
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     Refined found = refined(own.ray, sign, own.base + root * own.length, own.base + start * own.length - slack,
                             own.base + stop * own.length + slack, own.length / slope);
@@ -342,41 +322,30 @@ void list_ranged(Work work, Frame frame, int cell, Search search, Pyramid pyrami
 // those of the last level into pixels by stage 3.
 void isolate_tiles(Work work, Frame frame) {
     int across = tiles_across(work.size, work.tile);
-    bool first = work.level == 0;
-    int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
-    int above_across = tiles_across(work.size, 2 * work.tile);
-    int above = tiles_before(work.size, 2 * work.tile);
+    int total = tiles_to_take(work);
     int pixels = work.tile * work.tile;
-    for (int taken = work.item; taken < total; taken += work.items) {
-        int cell_x = taken % across;
-        int cell_y = taken / across;
-        real start = -REAL_INFINITY;
-        real width = REAL_INFINITY;
-        int spent = 0;
-        if (!first) {
-            int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
-            int record = (OPEN_RECORD + SINGLE_RECORD) * above + OPEN_RECORD * (taken >> 2);
-            cell_x = 2 * (parent % above_across) + (taken & 1);
-            cell_y = 2 * (parent / above_across) + ((taken >> 1) & 1);
-            start = entry_at(work, record);
-            width = entry_at(work, record + 1);
-            spent = int(entry_at(work, record + 2));
-        }
-        if (cell_x >= across || cell_y >= across) continue;
-        int i0 = cell_x * work.tile;
-        int j0 = cell_y * work.tile;
+    for (int number = work.item; number < total; number += work.items) {
+        Taken taken = taken_tile(work, number);
+        if (taken.x >= across || taken.y >= across) continue;
+        bool first = taken.record < 0;
+        real start = first ? -REAL_INFINITY : entry_at(work, taken.record);
+        real width = first ? REAL_INFINITY : entry_at(work, taken.record + 1);
+        int spent = first ? 0 : int(entry_at(work, taken.record + 2));
+        int cell = taken.y * across + taken.x;
+        int i0 = taken.x * work.tile;
+        int j0 = taken.y * work.tile;
         Pyramid pyramid = pyramid_of(frame, i0, j0, work.tile, work.size);
         Span span = span_of(frame, pyramid);
         start = max(start, span.lo);
         width = min(width, FIRST * (span.hi - span.lo));
-        real least = SHORTEST * real(work.tile) * frame.pixel * (frame.middle + frame.reach);
+        real least = SHORTEST * real(work.tile) * frame.pixel * frame.far;
         Search search = searched(frame, pyramid, start, span.hi, width, least, false);
         spent += search.evaluations;
         int share = (spent + pixels - 1) / pixels;
         if (search.verdict == EMPTY) answer_empty(work, i0, j0, share);
-        if (search.verdict == SINGLE) list_ranged(work, frame, cell_y * across + cell_x, search, pyramid, share);
+        if (search.verdict == SINGLE) list_ranged(work, frame, cell, search, pyramid, share);
         if (search.verdict == OPEN) {
-            list_open(work, cell_y * across + cell_x, search.start, 2.0 * (search.stop - search.start), spent / 4);
+            list_open(work, cell, search.start, 2.0 * (search.stop - search.start), spent / 4);
         }
     }
 }

@@ -2,21 +2,27 @@
 
     python -m tests.benchmarks.cluster
 
-The device sleeps in each step, so that only the engine works. Workers are threads of this process, and so is the
-scheduler: the engine's work for all of them is done on one core.
+The device sleeps in each step, so that only the engine works. The scheduler and each worker are processes of their own,
+on this machine: the engine's work for all of them is done by its cores.
 """
 
 from __future__ import annotations
 
+import contextlib
+import subprocess
+import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from types import SimpleNamespace
 from typing import Any
 
+from harness.cluster.engine import Engine
 from harness.cluster.executor import ClusterExecutor
 from harness.cluster.fleet import ClusterFleet
 from harness.devices.steps import Executor
 from harness.experiment.plan import Planned
-from tests.sleeping_device import INFO, SleepingExecutor, cluster, until
+from tests.campaigns.cluster import Scheduler
+from tests.sleeping_device import INFO, SleepingExecutor, until, watched
 
 CELLS = 160
 STEP_SECONDS = 0.05
@@ -32,14 +38,10 @@ class _Cell:
         self.cell, self.device, self.together = self, INFO.name, str(number)
 
 
-class _Check:
-    rays = range(16)
-
-
 def _work(executor: Executor, cells: Sequence[Planned], where: dict[str, Any]) -> None:
     """Take the steps of cells as a runner does, and nothing else."""
     del where
-    check: Any = _Check()
+    check: Any = SimpleNamespace(rays=range(16))
     frame: Any = None
     for cell in cells:
         key = cell.cell.together
@@ -50,30 +52,46 @@ def _work(executor: Executor, cells: Sequence[Planned], where: dict[str, Any]) -
         executor.release(INFO.name, key)
 
 
-def seconds(workers: int, cells: int) -> float:
+@contextlib.contextmanager
+def cluster(workers: int, step: float) -> Iterator[Engine]:
+    """Start a scheduler and so many workers, each as if on a machine of its own; a step takes `step` seconds."""
+    scheduler, started = Scheduler(), []
+    try:
+        for number in range(workers):
+            what = {INFO.name: 1.0, f"on#lab{number}": 1.0}
+            code = f"from tests.sleeping_device import serve; serve({scheduler.address!r}, {what}, {step})"
+            started.append(subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL))
+        with watched(scheduler.address) as engine:
+            until(lambda: len(engine.places()) == workers, 300.0)
+            yield engine
+    finally:
+        scheduler.end()
+        for worker in started:
+            worker.kill()
+            worker.wait()
+
+
+class _Budget:
+    timeout, memory = 60.0, 0.5
+
+
+def seconds(workers: int, cells: int, step: float) -> float:
     """Return how long so many cells take on so many workers."""
-    resources = [{INFO.name: 1.0, f"on#lab{number}": 1.0} for number in range(workers)]
-    with cluster(resources) as (_, engine, _told):
-        until(lambda: len(engine.places()) == workers)
-        fleet = ClusterFleet(engine, 20.0)
+    with cluster(workers, step) as engine:
+        fleet, budget = ClusterFleet(engine, 60.0), _Budget()
         fleet.devices(["all"])
         planned: list[Any] = [_Cell(number) for number in range(cells)]
-
-        class Budget:
-            timeout, memory = 60.0, 0.5
-
-        budget: Any = Budget()
         start = time.perf_counter()
-        fleet.run(planned, budget, _work)
+        fleet.run(planned, budget, _work)  # type: ignore[arg-type]
         return time.perf_counter() - start
 
 
 def overhead(cells: int) -> float:
     """Return the seconds that a cell takes longer through the engine than at the device itself."""
-    with cluster([{INFO.name: 1.0}]) as (_, engine, _told):
-        until(lambda: engine.places())
+    with cluster(1, 0.0) as engine:
         place = engine.take(lambda _: True)
         there, here = ClusterExecutor(engine, INFO.name, place, lambda _: True, 60.0, 0.5), SleepingExecutor(60.0)
+        SleepingExecutor.seconds = 0.0
         spent = {}
         planned: list[Any] = [_Cell(number) for number in range(cells)]
         _work(there, planned[:1], {})  # the process that holds the device is started once
@@ -87,11 +105,9 @@ def overhead(cells: int) -> float:
 
 def main() -> None:
     """Print both figures."""
-    SleepingExecutor.seconds = STEP_SECONDS
-    one, eight = seconds(1, CELLS // 8), seconds(8, CELLS)
+    one, eight = seconds(1, CELLS // 8, STEP_SECONDS), seconds(8, CELLS, STEP_SECONDS)
     told = f"{STEPS} steps of {STEP_SECONDS * 1e3:.0f} ms a cell"
     print(f"throughput of 8 workers over one: {8 * one / eight:.2f} ({told}; wanted 7.5)")
-    SleepingExecutor.seconds = 0.0
     print(f"overhead of the engine: {1e3 * overhead(50):.1f} ms a cell of {STEPS} steps (wanted below 20)")
 
 

@@ -1,14 +1,15 @@
 """Kill workers and the scheduler of a cluster at random moments while a config runs on it.
 
 A trial starts a scheduler and `firsthit worker`, which serves each device of this machine by a process of its own, runs
-a config on them again and again, and kills until it has killed EACH times: one time the scheduler, which is started
-again at its address, else a worker of Dask or its nanny. Each run must end by itself, with the rows of a run without a
-cluster.
+a config on them again and again, and disturbs them until it has done so EACH times: one time it kills the scheduler,
+which is started again at its address, one time it stops a worker of Dask so that it hangs, else it kills a worker or
+its nanny. Each run must end by itself, with the rows of a run without a cluster.
 """
 
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import random
 import shutil
@@ -21,17 +22,20 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+from harness.devices.discovery import discover_devices
 from tests.campaigns import frame, processes
 from tests.campaigns.frame import Campaign, Fell, Place
 from tests.campaigns.processes import Command
 
-EACH = 11
+EACH = 12
 CORES = 1
-PAUSE = 1.5, 6.0  # seconds between two kills
+PAUSE = 0.05, 0.6  # between two disturbances, in times of what the workers need to start and say what they have
+LONGEST = 900.0  # seconds of a run, after which it counts as one that hangs
+STACKS = {"PYTHONFAULTHANDLER": "1"}  # so that a run that hangs tells where
 CONFIG = """title = "Small"
 surfaces = ["sphere", "torus"]
 sizes = [16]
-devices = ["all"]
+devices = {devices}
 [[method]]
 name = "newton"
 [[method]]
@@ -45,18 +49,20 @@ timeout = 300
 """
 
 
-class _Scheduler:
+class Scheduler:
     """Hold a scheduler, which is started again at the same address after it was killed."""
 
     def __init__(self) -> None:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
-            self.port: int = free.getsockname()[1]
+            port: int = free.getsockname()[1]
+        self.address = f"127.0.0.1:{port}"
         self._process = self._started()
         frame.ENDINGS.append(self.end)
 
     def _started(self) -> subprocess.Popen[bytes]:
-        where = ("--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard")
+        host, port = self.address.split(":")
+        where = ("--host", host, "--port", port, "--no-dashboard")
         command = [sys.executable, "-m", "distributed.cli.dask_scheduler", *where]
         options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         return subprocess.Popen(command, start_new_session=True, **options)
@@ -72,27 +78,30 @@ class _Scheduler:
 
 
 def prepare(shared: Path) -> None:
-    """Run the config without a cluster, once for all trials."""
-    (shared / "small.toml").write_text(CONFIG)
+    """Run the config without a cluster, once for all trials, on all devices that work here."""
+    names = [info.name for info in discover_devices() if not info.problem]
+    (shared / "small.toml").write_text(CONFIG.format(devices=json.dumps(names)))
     code, told = Command(shared, ("run", "small.toml")).ended(within=1500.0)
     if code != 0:
         raise Fell(f"the run without a cluster ended with {code}: {told[-1500:]}")
 
 
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
-    shutil.copy(place.shared / "small.toml", place.own)
-    scheduler, undisturbed = _Scheduler(), processes.facts(place.shared / "runs")
-    address = f"127.0.0.1:{scheduler.port}"
-    workers = Command(place.own, ("worker", address, "--cores", str(CORES)))
+    own = place.own / "work"
+    own.mkdir()
+    shutil.copy(place.shared / "small.toml", own)
+    scheduler, undisturbed = Scheduler(), processes.facts(place.shared / "runs")
+    workers = Command(own, ("worker", scheduler.address, "--cores", str(CORES)))
     outcomes: Counter[str] = Counter()
-    kills = ["scheduler", *["worker"] * (EACH - 1)]
-    dice.shuffle(kills)
-    number = 0
-    while kills:
+    left = ["scheduler killed", "worker hung", *["worker killed"] * (EACH - 2)]
+    dice.shuffle(left)
+    number, pace = 0, 0.0
+    while left:
         number += 1
-        _disturb(dice, place.own, f"runs{number}", address, workers, scheduler, kills, outcomes)
-        processes.check_same(processes.facts(place.own / f"runs{number}"), undisturbed)
-        processes.check_clean(place.own / f"runs{number}")
+        runs = f"runs{number}"
+        pace = _disturb(dice, own, runs, workers, scheduler, left, outcomes, pace)
+        processes.check_same(processes.facts(own / runs), undisturbed)
+        processes.check_clean(own / runs)
     workers.process.send_signal(signal.SIGINT)
     code, told = workers.ended()
     if code != 130:
@@ -105,31 +114,45 @@ def _disturb(
     dice: random.Random,
     own: Path,
     runs: str,
-    address: str,
     workers: Command,
-    scheduler: _Scheduler,
-    kills: list[str],
+    scheduler: Scheduler,
+    left: list[str],
     outcomes: Counter[str],
-) -> None:
-    """Run the config to its end, and kill meanwhile what is next in `kills`."""
-    command = Command(own, ("run", "small.toml", "--runs", runs, "--cluster", address))
+    pace: float,
+) -> float:
+    """Run the config to its end, and do meanwhile what is next in `left`.
+
+    Returns `pace`, the seconds in which workers start; where that is 0, how long the run took to find them.
+    """
+    words = ("run", "small.toml", "--runs", runs, "--cluster", scheduler.address)
+    command = Command(own, words, environment=STACKS)
     finished: dict[str, bytes] = {}
-    after = time.monotonic() + dice.uniform(*PAUSE)
+    start = time.monotonic()
+    end, after = start + LONGEST, 0.0
     while command.process.poll() is None:
         finished = _seen(own / runs, finished)
-        if kills and time.monotonic() > after and (_told_devices(own / runs)):
-            what = kills.pop()
-            outcomes[f"{what} killed"] += _kill(dice, what, workers, scheduler)
-            after = time.monotonic() + dice.uniform(*PAUSE)
+        if not after and _has_begun(own / runs):
+            pace = pace or time.monotonic() - start
+            after = time.monotonic() + pace * dice.uniform(*PAUSE)
+        if left and after and time.monotonic() > after:
+            if _done(dice, left[-1], workers, scheduler):
+                outcomes[left.pop()] += 1
+            after = time.monotonic() + pace * dice.uniform(*PAUSE)
+        if time.monotonic() > end:
+            command.process.send_signal(signal.SIGABRT)
+            command.process.wait(60)
+            told = command.told()
+            raise Fell(f"`run --cluster` did not end within {LONGEST:.0f} s; it told {told[:2000]} … {told[-6000:]}")
         time.sleep(0.1)
-    code, told = command.ended(within=1500.0)
+    code, told = command.ended()
     if code != 0:
         raise Fell(f"`run --cluster` ended with {code}: {told[-2500:]}")
     _seen(own / runs, finished)
+    return pace
 
 
-def _told_devices(runs: Path) -> bool:
-    """Tell whether the run has begun: it has found its devices, and written its plan."""
+def _has_begun(runs: Path) -> bool:
+    """Tell whether a run has found its devices, and written its plan."""
     return (runs / "small" / "plan.json").exists()
 
 
@@ -141,17 +164,19 @@ def _seen(runs: Path, finished: dict[str, bytes]) -> dict[str, bytes]:
     return now
 
 
-def _kill(dice: random.Random, what: str, workers: Command, scheduler: _Scheduler) -> int:
-    """Kill the scheduler, or a process of Dask's that serves devices or cores; return how many were killed."""
-    if what == "scheduler":
+def _done(dice: random.Random, what: str, workers: Command, scheduler: Scheduler) -> bool:
+    """Kill the scheduler, or kill or stop a process that serves a device or a core; tell whether there was one."""
+    if what == "scheduler killed":
         scheduler.replace()
-        return 1
-    chosen = dice.choice((_is_worker, _is_nanny))
+        return True
+    chosen = dice.choice((_is_worker, _is_nanny)) if what == "worker killed" else _is_worker
+    number = signal.SIGKILL if what == "worker killed" else signal.SIGSTOP  # these processes block SIGTERM
     found = [pid for pid in workers.workers() if chosen(pid)]
     with contextlib.suppress(OSError):
         if found:
-            os.kill(dice.choice(found), dice.choice((signal.SIGKILL, signal.SIGTERM)))
-    return 1
+            os.kill(dice.choice(found), number)
+            return True
+    return False
 
 
 def _is_worker(pid: int) -> bool:
@@ -172,13 +197,13 @@ def _command(pid: int) -> bytes:
 
 CAMPAIGN = Campaign(
     name="cluster",
-    tries="kills workers of a cluster, and its scheduler once in EACH times, while a config runs on it",
+    tries="kills workers of a cluster, once in EACH times its scheduler, or stops a worker, while a config runs on it",
     promise="no finished cell lost or run twice, no run that does not end by itself, no figure other than that of a run"
     " without a cluster, no traceback, no process left behind",
     trial=_trial,
     small=0,  # a trial takes minutes; tests/test_cluster.py does the same with devices that sleep
-    whole=55,
+    whole=60,
     each=EACH,
     prepare=prepare,
-    limit=1800,
+    limit=3600,
 )

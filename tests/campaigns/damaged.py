@@ -115,6 +115,8 @@ def _tried(dice: random.Random, kind: Kind, good: Any, shared: Path, own: Path) 
         return "made again"
     if damaged_kinds.same(found, good):
         return "harmless"
+    if kind.form == "zip" and found.items() <= good.items():
+        return "in part"
     if not mended or not kind.sound(found):
         raise _told(kind, kept)
     return "possible"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import math
@@ -21,7 +22,7 @@ from harness.devices import kept_answers
 from harness.gate import baseline, pictures
 from harness.gate.baseline import Baseline
 from harness.oracle import cache, first_hits
-from harness.results import agreement, commits, compaction, sealed, store, study_file
+from harness.results import agreement, archive, commits, compaction, sealed, store, study_file
 from harness.results.schema import FAMILY, SCHEMA, flattener
 from harness.results.store import Store
 from harness.running import environment
@@ -50,7 +51,7 @@ class Kind:
     """State a kind of file.
 
     path: of the file, below a folder
-    form: "json", "npz", "npy", "toml" or "parquet"
+    form: "json", "npz", "npy", "toml", "parquet" or "zip", of which a part may be read where another part is damaged
     read: reads the file in a folder as commands do; returns None where it is made again. Raises ValueError, OSError or
         FirsthitError where it is named
     sound: tells whether a value that was read may become a figure
@@ -187,6 +188,17 @@ def _study(name: str) -> Callable[[Path], Any]:
     return lambda folder: study_file.read(folder / f"{name}.json", name, "abc")["rows"]
 
 
+def _archive(folder: Path) -> Any:
+    """Read the rows of an archive whose checksums hold, as bytes."""
+    found = {}
+    with archive.opened(folder / "run.zip") as run:
+        for path in (run / "cells").glob("*.json"):
+            with contextlib.suppress(ValueError):
+                sealed.read(path)
+                found[path.stem] = path.read_bytes()
+    return found
+
+
 KINDS = (
     Kind("cells", f"cells/{KEY}.json", "json", _row(KEY), _sound_row),
     Kind("families", f"cells/{LADDER}.json", "json", _row(LADDER), _sound_row),
@@ -204,6 +216,7 @@ KINDS = (
     Kind("baseline", "baseline.toml", "toml", lambda folder: vars(baseline.read(folder / "baseline.toml"))),
     Kind("history", "history/2026-03-01-one.json", "json", _history, lambda found: _finite(found["rows"])),
     Kind("site", "firsthit-site.json", "json", _mark),
+    Kind("archive", "run.zip", "zip", _archive),
 )
 
 
@@ -250,6 +263,9 @@ def prepare(folder: Path) -> None:
     written = commits.write(folder / "history", kept_runs.kept(0, gated), "one")
     written.rename(folder / "history" / "2026-03-01-one.json")
     (folder / build.MARK).write_bytes(sealed.sealed({"format": 1, "files": ["index.html", "runs/a.html"]}))
+    packed = folder.with_name("run.zip")
+    archive.pack(folder, packed)
+    packed.rename(folder / "run.zip")
 
 
 def _methods() -> dict[str, Any]:

@@ -154,6 +154,10 @@ class Command:
         """List the processes that the command has started."""
         return [pid for pid in self.processes() if pid != self.process.pid]
 
+    def told(self) -> str:
+        """Return what it has told so far on standard error, then on standard output."""
+        return "".join(path.read_text(errors="replace") for path in (self._err, self._out))
+
     def ended(self, within: float = 300.0) -> tuple[int, str]:
         """Wait for the end; return the exit code and standard error, then standard output.
 
@@ -167,7 +171,7 @@ class Command:
             told = self._err.read_text(errors="replace")
             self.end()
             raise Fell(f"`firsthit {' '.join(self.arguments)}` hangs; it told {told[-2000:]}") from None
-        told = "".join(path.read_text(errors="replace") for path in (self._err, self._out))
+        told = self.told()
         if NOT_BEGUN in told:
             code = -2  # as where Python is a little further on; it ends with 1
         if "Traceback" in told and (any(str(ROOT / room) in told for room in OURS) or code not in EARLY):

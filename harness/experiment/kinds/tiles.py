@@ -61,7 +61,7 @@ class TileMethods(ShotKind):
     ) -> Check[Hits]:
         side = math.isqrt(len(rays))
         moved, ratio = checked_over(camera, side, size)
-        return TileHits(frame_of(programs, surface, moved, ratio * side), rays, ratio, np.arange(len(rays)))
+        return TileHits(TileCheck(frame_of(programs, surface, moved, ratio * side), rays, ratio, np.arange(len(rays))))
 
     def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[TileAnswer]:
         assert shot.camera is not None

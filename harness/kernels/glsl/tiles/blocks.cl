@@ -1,18 +1,10 @@
 // What a stage writes and reads for all lanes at once. Lane k is pixel (k & 3, k >> 2) of a block.
 void list_single(Work work, int cell, wide root, wide slope, real start, real stop, bool whole, int spent,
                  real lean_x, real lean_y) {
-    int slot = next_in(work, 4 * work.level + 1);
-    int across = tiles_across(work.size, work.tile);
-    __global real *record = work.entries + singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
-    work.queue[QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across + slot] = cell;
-    vstore16(root, 0, record);
-    vstore16(slope, 1, record);
-    record[32] = start;
-    record[33] = stop;
-    record[34] = whole ? 1.0 : 0.0;
-    record[35] = real(spent);
-    record[36] = lean_x;
-    record[37] = lean_y;
+    int record = next_single(work, cell);
+    vstore16(root, 0, work.entries + record);
+    vstore16(slope, 1, work.entries + record);
+    enter_piece(work, record + 32, start, stop, whole, spent, lean_x, lean_y);
 }
 
 // Answers the 16 pixels of the block at (i0, j0): hits where `hit`, at shift + t, else misses.
@@ -53,14 +45,10 @@ void leave_pixels(Work work, int i0, int j0, yes which, wide from) {
     real depths[16];
     vstore16(int_lanes(which), 0, marks);
     vstore16(from, 0, depths);
-    int before = tiles_before(work.size, TILE >> LEVELS);
     for (int k = 0; k < 16; k++) {
         int i = i0 + (k & 3);
         int j = j0 + (k >> 2);
-        if (marks[k] == 0 || i >= work.size || j >= work.size) continue;
-        int slot = next_in(work, LEFT);
-        work.queue[QUEUE_RECORD * before + slot] = j * work.size + i;
-        work.entries[(OPEN_RECORD + SINGLE_RECORD) * before + slot] = depths[k];
+        if (marks[k] != 0 && i < work.size && j < work.size) leave_pixel(work, j * work.size + i, depths[k]);
     }
 }
 
@@ -85,16 +73,6 @@ WideRay with_listed(Work work, int i0, int j0, WideRay rays) {
     result.direction.y = vload16(0, parts[4]);
     result.direction.z = vload16(0, parts[5]);
     return result;
-}
-
-// Answers that all pixels of a tile miss.
-void answer_empty(Work work, int i0, int j0, int evaluations) {
-    int word = answer_word(MISS, work.level, evaluations);
-    for (int j = j0; j < min(j0 + work.tile, work.size); j++) {
-        for (int i = i0; i < min(i0 + work.tile, work.size); i++) {
-            work.answer[j * work.size + i] = word;
-        }
-    }
 }
 
 #define next_tile(work, counter, turn) next_in(work, counter)

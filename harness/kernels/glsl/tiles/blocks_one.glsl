@@ -13,11 +13,7 @@ void answer_block(Work work, int i0, int j0, real shift, real t, bool hit, int s
 void leave_pixels(Work work, int i0, int j0, bool which, real from) {
     int i = i0 + OWN_LANE % BLOCK_WIDTH;
     int j = j0 + OWN_LANE / BLOCK_WIDTH;
-    if (!which || i >= work.size || j >= work.size) return;
-    int before = tiles_before(work.size, TILE >> LEVELS);
-    int slot = next_in(work, LEFT);
-    enqueue(work, QUEUE_RECORD * before + slot, j * work.size + i);
-    enter(work, (OPEN_RECORD + SINGLE_RECORD) * before + slot, from);
+    if (which && i < work.size && j < work.size) leave_pixel(work, j * work.size + i, from);
 }
 
 // Returns the ray of the lane's pixel in a block: the listed one where there is one.

@@ -1,11 +1,9 @@
 // Runs stage 1 on the tiles of one level; at level -1, sets all counts to 0.
 void main() {
-    int id = int(gl_GlobalInvocationID.x);
-    Work work = Work(size, tile, level, ratio, id % 16, id / TILE_ITEMS, int(gl_NumWorkGroups.x) * TILE_GROUP / TILE_ITEMS);
+    Work work = WORK;
     if (level < 0) {
-        if (id == 0) for (int k = 0; k < 64; k++) counts[k] = 0;
+        if (gl_GlobalInvocationID.x == 0) for (int k = 0; k < 64; k++) counts[k] = 0;
         return;
     }
-    isolate_tiles(work, make_frame(vec3(camera[0], camera[1], camera[2]), vec3(camera[3], camera[4], camera[5]),
-                                   vec3(camera[6], camera[7], camera[8]), vec3(camera[9], camera[10], camera[11]), size));
+    isolate_tiles(work, make_frame(work));
 }

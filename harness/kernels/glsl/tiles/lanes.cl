@@ -1,8 +1,9 @@
 // Operations on lanes where one work item has all sixteen as one vector. Lane k is at (k & 3, k >> 2).
 #define wide(v) ((wide)(v))
-#define LESS(a, b) isless(a, b)
-#define MORE(a, b) isgreater(a, b)
-#define AT_MOST(a, b) islessequal(a, b)
+#define FUSED(a, b, c) fma(wide(a), b, c)
+#define LESS(a, b) ((a) < (b))
+#define MORE(a, b) ((a) > (b))
+#define AT_MOST(a, b) ((a) <= (b))
 #define BOTH(a, b) ((a) & (b))
 #define EITHER(a, b) ((a) | (b))
 #define NOT(a) (~(a))

@@ -2,6 +2,7 @@
 // (k & 3, k >> 2). Votes and extrema are those of the lane itself: what leaves this file unsaid, a stage's exchange adds.
 #define wide real
 #define yes bool
+#define FUSED(a, b, c) fma(wide(a), b, c)
 #define LESS(a, b) ((a) < (b))
 #define MORE(a, b) ((a) > (b))
 #define AT_MOST(a, b) ((a) <= (b))

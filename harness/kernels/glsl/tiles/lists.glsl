@@ -12,6 +12,21 @@ int listed_place(Work work, int i, int j) {
     return grid ? 6 * ((j / ratio) * (work.size / ratio) + i / ratio) : -1;
 }
 
+vec3 camera_vector(Work work, int place) {
+    return vec3(camera_at(work, place), camera_at(work, place + 1), camera_at(work, place + 2));
+}
+
+// Returns the ray of a pixel: the listed one, where it has one.
+Ray pixel_ray(Work work, int i, int j) {
+    int listed = LISTED == 1 ? listed_place(work, i, j) : -1;
+    if (listed >= 0) {
+        return make_ray(vec3(ray_at(work, listed), ray_at(work, listed + 1), ray_at(work, listed + 2)),
+                        vec3(ray_at(work, listed + 3), ray_at(work, listed + 4), ray_at(work, listed + 5)));
+    }
+    return camera_ray(camera_vector(work, 0), camera_vector(work, 3), camera_vector(work, 6), camera_vector(work, 9),
+                      i, j, work.size, work.size);
+}
+
 int tiles_across(int size, int tile) {
     return (size + tile - 1) / tile;
 }
@@ -27,6 +42,31 @@ int tiles_before(int size, int tile) {
 int singles_at(int size, int tile) {
     int across = tiles_across(size, tile);
     return (OPEN_RECORD + SINGLE_RECORD) * tiles_before(size, tile) + OPEN_RECORD * across * across;
+}
+
+// Puts a tile on its level's list of single ones, in the place `slot`, and returns where its record begins in `entries`.
+int single_record(Work work, int cell, int slot) {
+    int across = tiles_across(work.size, work.tile);
+    enqueue(work, QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across + slot, cell);
+    return singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
+}
+
+// Enters the piece that has a single tile's roots, whether all of it is in the domain, and how its nodes' planes lean.
+void enter_piece(Work work, int place, real start, real stop, bool whole, int spent, real lean_x, real lean_y) {
+    enter(work, place, start);
+    enter(work, place + 1, stop);
+    enter(work, place + 2, whole ? real(1) : real(0));
+    enter(work, place + 3, real(spent));
+    enter(work, place + 4, lean_x);
+    enter(work, place + 5, lean_y);
+}
+
+// Puts a pixel on the list of those that the last stage casts, from a depth on.
+void leave_pixel(Work work, int place, real from) {
+    int before = tiles_before(work.size, TILE >> LEVELS);
+    int slot = next_in(work, LEFT);
+    enqueue(work, QUEUE_RECORD * before + slot, place);
+    enter(work, (OPEN_RECORD + SINGLE_RECORD) * before + slot, from);
 }
 
 // Puts a tile on its level's list of open ones.

@@ -1,8 +1,8 @@
 // Casts the pixels that stages 2 and 3 left, each from the depth on that they reached. If OPEN_TILES is 1, stage 3 does
 // nothing, and the pixels of open tiles are cast here too.
-void cast_left(Work work, vec3 eye, vec3 forward, vec3 right, vec3 up) {
-    vec3 normal = depth_normal(forward, right, up);
-    real middle = inner_product(difference(DOMAIN_CENTER, eye), normal);
+void cast_left(Work work) {
+    vec3 normal = depth_normal(camera_vector(work, 3), camera_vector(work, 6), camera_vector(work, 9));
+    real middle = inner_product(difference(DOMAIN_CENTER, camera_vector(work, 0)), normal);
     int before = tiles_before(work.size, TILE >> LEVELS);
     int tile = TILE >> (LEVELS - 1);
     int last = tiles_before(work.size, tile);
@@ -20,12 +20,7 @@ void cast_left(Work work, vec3 eye, vec3 forward, vec3 right, vec3 up) {
         if (i >= work.size || j >= work.size) continue;
         int place = j * work.size + i;
         int at = (OPEN_RECORD + SINGLE_RECORD) * (listed_left ? before : last) + (listed_left ? 1 : OPEN_RECORD) * slot;
-        Ray ray = camera_ray(eye, forward, right, up, i, j, work.size, work.size);
-        int listed = LISTED == 1 ? listed_place(work, i, j) : -1;
-        if (listed >= 0) {
-            ray = make_ray(vec3(ray_at(work, listed), ray_at(work, listed + 1), ray_at(work, listed + 2)),
-                           vec3(ray_at(work, listed + 3), ray_at(work, listed + 4), ray_at(work, listed + 5)));
-        }
+        Ray ray = pixel_ray(work, i, j);
         real depth = middle + entry_at(work, at);
         real lower = depth / inner_product(ray.direction, normal);
         lower = max(lower - 8.0 * UNIT_ROUNDOFF * fabs(lower), real(0));

@@ -1,20 +1,10 @@
 // What isolation writes for a tile where sixteen work items have one lane each.
-
 void list_single(Work work, int cell, real root, real slope, real start, real stop, bool whole, int spent,
                  real lean_x, real lean_y) {
-    int slot = shared_place(work, 4 * work.level + 1);
-    int before = tiles_before(work.size, work.tile);
-    int across = tiles_across(work.size, work.tile);
-    int record = singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
-    enqueue(work, QUEUE_RECORD * before + across * across + slot, cell);
+    int record = single_record(work, cell, shared_place(work, 4 * work.level + 1));
     enter(work, record + OWN_LANE, root);
     enter(work, record + 16 + OWN_LANE, slope);
-    enter(work, record + 32, start);
-    enter(work, record + 33, stop);
-    enter(work, record + 34, whole ? real(1) : real(0));
-    enter(work, record + 35, real(spent));
-    enter(work, record + 36, lean_x);
-    enter(work, record + 37, lean_y);
+    enter_piece(work, record + 32, start, stop, whole, spent, lean_x, lean_y);
 }
 
 // Answers that all pixels of a tile miss.

@@ -6,9 +6,9 @@ STRUCT(WideSpan) struct WideSpan { wide lo; wide hi; };
 // Returns o + t d; t is one number, or one per lane.
 WideVec3 wide_point(WideVec3 o, wide t, WideVec3 d) {
     WideVec3 p;
-    p.x = o.x + t * d.x;
-    p.y = o.y + t * d.y;
-    p.z = o.z + t * d.z;
+    p.x = FUSED(t, d.x, o.x);
+    p.y = FUSED(t, d.y, o.y);
+    p.z = FUSED(t, d.z, o.z);
     return p;
 }
 
@@ -25,8 +25,8 @@ STRUCT(Rows) struct Rows { wide u0; wide u1; wide u2; wide u3; wide v0; wide v1;
 
 // Applies a matrix whose rows have the sum 1, by differences, whose rounding errors are small where lanes agree.
 #define TRANSFORM_ONE(g, r) { \
-    wide h_ = g + (r.u1 * (OTHER_1(g) - g) + r.u2 * (OTHER_2(g) - g) + r.u3 * (OTHER_3(g) - g)); \
-    g = h_ + (r.v1 * (OTHER_4(h_) - h_) + r.v2 * (OTHER_8(h_) - h_) + r.v3 * (OTHER_12(h_) - h_)); }
+    wide h_ = g + FUSED(r.u3, OTHER_3(g) - g, FUSED(r.u2, OTHER_2(g) - g, r.u1 * (OTHER_1(g) - g))); \
+    g = h_ + FUSED(r.v3, OTHER_12(h_) - h_, FUSED(r.v2, OTHER_8(h_) - h_, r.v1 * (OTHER_4(h_) - h_))); }
 
 // Applies any matrix.
 #define TRANSFORM_ANY(g, r) { \

@@ -11,6 +11,15 @@ typedef struct Work {
     int size; int tile; int level; int ratio; int lane; int item; int items; __local real *numbers; __local int *bits;
 } Work;
 
+// What the kernel of a stage takes, and what it hands on; TILE_ITEMS work items share a tile or a pixel.
+#define TAKES __global const float *camera, __global real *t, __global int *answer, __global int *queue, \
+              __global int *counts, __global real *entries, __global const real *fourths, __global const float *rays, \
+              int nx, int ny, int size, int tile, int level, int ratio
+#define WORK {camera, t, answer, queue, counts, entries, fourths, rays, size, tile, level, ratio, \
+              (int)get_global_id(0) % 16, (int)get_global_id(0) / TILE_ITEMS, (int)get_global_size(0) / TILE_ITEMS, \
+              numbers, bits}
+
+real camera_at(Work work, int place) { return work.camera[place]; }
 int counted(Work work, int counter) { return work.counts[counter]; }
 int queued(Work work, int place) { return work.queue[place]; }
 real entry_at(Work work, int place) { return work.entries[place]; }

@@ -1,0 +1,227 @@
+"""What a cluster loses on the way is asked for again, and nobody waits for what will not come."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from distributed import Future, Status
+from distributed.scheduler import KilledWorker, WorkerState
+
+from harness.cluster import engine as engines
+from harness.cluster import starting
+from harness.cluster.engine import Engine
+from harness.cluster.executor import LOSSES, ClusterExecutor
+from harness.cluster.places import Lost
+from harness.cluster.spread import ClusterSpread
+from harness.contract import FirsthitError
+from tests.sleeping_device import INFO, cluster, until
+
+LAB1 = {"opencl:sleeping": 1.0, "on#lab1": 1.0}
+let_go = threading.Event()
+
+
+@pytest.fixture(autouse=True)
+def undisturbed() -> Iterator[None]:
+    let_go.clear()
+    yield
+    let_go.set()
+
+
+def _answered_late(number: int) -> int:
+    """Answer once the test lets go; workers are threads of this process."""
+    let_go.wait(30)
+    return number * number
+
+
+def _ends_its_worker(_: int) -> int:
+    raise KilledWorker("a task", WorkerState(**_NOWHERE), 3)
+
+
+_NOWHERE: dict[str, Any] = {
+    "address": "tcp://1.1.1.1:1",
+    "status": Status.running,
+    "pid": 1,
+    "name": "w",
+    "nthreads": 1,
+    "memory_limit": 0,
+    "local_directory": "",
+    "nanny": "",
+    "server_id": "w",
+}
+
+
+def _in_a_thread(call: Any) -> tuple[threading.Thread, list[Any]]:
+    found: list[Any] = []
+
+    def run() -> None:
+        try:
+            found.append(call())
+        except Exception as error:
+            found.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    return thread, found
+
+
+def test_a_step_that_fails_at_once_is_taken_again_after_a_look_at_the_scheduler(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        executor = ClusterExecutor(engine, INFO.name, engine.take(lambda _: True), lambda _: True, 5.0, 0.5)
+        looks: list[int] = []
+
+        def step(*_: Any) -> str:
+            looks.append(engine._looked)
+            if looks[-1] < looks[0] + 2:
+                raise Lost("its connection broke, which the engine does not know yet")
+            return "taken"
+
+        monkeypatch.setattr("harness.cluster.places.Hold.step", step)
+        assert executor._ask(INFO.name, "warm") == "taken" and len(looks) <= LOSSES
+
+
+def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        executor = ClusterExecutor(engine, INFO.name, engine.take(lambda _: True), lambda _: True, 5.0, 0.5)
+        executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
+        hold = executor._hold
+        assert hold
+        hold._actor = Mute()
+        thread, found = _in_a_thread(lambda: executor.warm(INFO.name, "k", None))  # type: ignore[arg-type]
+        engine.client.cancel([hold._made])  # as where the client was cut off from the scheduler for a moment
+        thread.join(30)
+    assert [warmed.batch for warmed in found] == [1]
+
+
+class Mute:
+    """Stand for a process that never answers; Dask asks it no more, and does not tell so."""
+
+    async def step(self, _: bytes) -> Any:
+        await asyncio.Event().wait()
+
+
+def test_chunks_whose_scheduler_was_lost_are_asked_for_again() -> None:
+    with cluster([{"cores": 1.0}]) as (_, engine, _told):
+        until(lambda: engine.cores() == 1)
+        thread, found = _in_a_thread(lambda: ClusterSpread(engine, None).map(_answered_late, [2, 3]))
+        until(lambda: sum(name.startswith("firsthit-answer") for name in engine.client.futures) == 2)
+        asked = [Future(name, engine.client) for name in engine.client.futures if name.startswith("firsthit-answer")]
+        engine.client.cancel(asked)  # as a client does whose connection to the scheduler breaks
+        let_go.set()
+        thread.join(30)
+    assert found == [[4, 9]]
+
+
+def test_work_that_ends_each_of_its_workers_is_told() -> None:
+    with cluster([{"cores": 1.0}]) as (_, engine, _told):
+        until(lambda: engine.cores() == 1)
+        with pytest.raises(FirsthitError, match="each worker that took this work of the oracle was lost"):
+            ClusterSpread(engine, None).map(_ends_its_worker, [2])
+
+
+def test_work_that_the_cluster_never_takes_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    with cluster([{"cores": 1.0}]) as (_, engine, _told):
+        until(lambda: engine.cores() == 1)
+        monkeypatch.setattr(engine.client, "submit", _refuses)
+        with pytest.raises(FirsthitError, match="did not take work of the oracle 5 times; the last time: RuntimeError"):
+            ClusterSpread(engine, None).map(_answered_late, [2])
+
+
+def _refuses(*_: Any, **__: Any) -> Any:
+    raise RuntimeError("no")
+
+
+def test_a_scheduler_that_begins_is_connected_to_once_it_can_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    with cluster([LAB1]) as (_, engine, told):
+        until(lambda: engine.places())
+        connect, refused = engine._connect, []
+
+        def begins() -> Any:
+            if len(refused) < 2:
+                refused.append(1)
+                raise RuntimeError("half made")  # Dask raises what it will where a scheduler begins or ends
+            return connect()
+
+        monkeypatch.setattr(engine, "_connect", begins)
+        engine.client.close()
+        until(lambda: any("is back" in line for line in told))
+        until(lambda: engine.places())
+
+
+def test_a_client_that_is_not_connected_is_replaced() -> None:
+    with cluster([LAB1]) as (_, engine, told):
+        until(lambda: engine.places())
+        first = engine.client
+        first.status = "connecting"  # as one is, for ever, whose own attempt to connect again has failed
+        until(lambda: any("is back" in line for line in told))
+        assert engine.client is not first
+
+
+def test_a_worker_that_was_silent_serves_again_when_it_speaks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Engine, "_restart", lambda *_: None)  # a worker without a nanny cannot be started again
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        place = engine.places()[0]
+        monkeypatch.setattr(engines, "SILENT_SECONDS", 0.0)
+        until(lambda: place.gone)
+        monkeypatch.setattr(engines, "SILENT_SECONDS", 30.0)
+        until(lambda: engine.places())
+        assert engine.places()[0] is not place
+
+
+def test_what_a_worker_said_is_asked_again_where_it_was_lost_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+    ask = Engine._asked
+
+    class Lost:
+        status = "cancelled"
+
+        def done(self) -> bool:
+            return True
+
+        def result(self, **_: float) -> Any:
+            raise RuntimeError("cancelled")
+
+    def counted(self: Engine, address: str, resources: dict[str, float]) -> Any:
+        asked.append(address)
+        return Lost() if len(asked) == 1 else ask(self, address, resources)
+
+    monkeypatch.setattr(Engine, "_asked", counted)
+    with cluster([LAB1]) as (_, engine, told):
+        until(lambda: engine.places())
+    assert len(asked) == 2 and told == []
+
+
+def test_a_client_that_is_closed_while_its_scheduler_is_away_writes_no_log(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    levels = {
+        name: logging.getLogger(name).level for name in ("distributed", "distributed.client", "tornado.application")
+    }
+    try:
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)
+        logging.getLogger("distributed.client").setLevel(logging.WARNING)  # as Dask sets it where it is imported
+        monkeypatch.setattr("harness.cluster.starting.Engine", lambda connect, *_: connect())
+        monkeypatch.setattr("dask.distributed.Client", lambda *_, **__: Closed())
+        with starting._watched("lab1:8786", "lab1:8786", lambda _: None):
+            logging.getLogger("distributed.client").error("it could not be connected again")
+        assert capsys.readouterr().err == ""
+        assert not logging.getLogger("distributed.client").isEnabledFor(logging.ERROR)
+    finally:
+        for name, level in levels.items():
+            logging.getLogger(name).setLevel(level)
+
+
+class Closed:
+    """Stand for a client, and for what watches it."""
+
+    def close(self) -> None:
+        pass
