@@ -283,8 +283,8 @@ def _figure(
     every = np.concatenate([curve.x for curve in found])
     many = len({curve.variant for curve in found}) > MOST_LINES
     found = [curve for curve in found if isinstance(curve.fit, Power)] if many else found
-    drawn = {curve.variant for curve in found}
-    variants = [variant for variant in marks if variant in drawn][:MOST_LINES]
+    known = {curve.variant for curve in found}
+    variants = [variant for variant in marks if variant in known][:MOST_LINES]
     found = [curve for curve in found if curve.variant in variants]
     places = [place for place in places if any(curve.place == place for curve in found)] or places
     columns = min(ACROSS, len(places))
