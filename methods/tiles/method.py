@@ -50,13 +50,12 @@ bernstein on the same rays.
     Barth decic   12.1   26.8       48.6        14.1    2.2             4.0              1.1
     16-ball       9.49   33.0       94.1        5.45    3.5             9.9              1.0
 
-In the geometric mean it is 2.4 times as fast as bernstein and 3.1 times as fast as eft_yuksel. The table is of the
-kernel before bounds were looked up in coarser tables; since then frames take 0.94 times as long in the mean of the nine
-(interleaved on a busy machine: 0.85 for tangle to 1.01 for clebsch), and the quiet run has not been repeated. Whole
-frames of nine surfaces in three views: the 99.9th percentile of the errors is 0.67 to 1.03 times that of bernstein; the
-largest error is above bernstein's in about half of the views, nearly always of a pixel that is cast by itself (`python
--m tests.benchmarks.tile_errors`). The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on these surfaces in this
-view.
+In the geometric mean it is 2.4 times as fast as bernstein and 3.1 times as fast as eft_yuksel. The table is of an older
+kernel, and the quiet run has not been repeated. Two changes have been made since, each measured by interleaved runs on
+a busy machine: bounds are looked up in coarser tables (0.94 times the time in the mean of the nine), and stages divide
+less and use fused multiply-adds (0.96 times the processor time: calyx 0.93, decic 0.98 to 1.01). What is known of the
+errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on
+these surfaces in this view.
 Other devices, and frames of other sizes (configs/tiles.toml), have not been measured on a quiet machine.
 
 **What was tried** opencl:intel, processor time at 1024x1024, float32, mostly single runs on a busy machine:
@@ -84,6 +83,17 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
       f's slope there held against the interpolated one     % over bernstein's: 1.03 to 0.85
     what is behind a tile's open piece is searched, so      octic: packets 0.96 times the time, isolation 1.1   no
       that packets may end there                            times; the frames: 1.02
+    fewer divisions at each pixel, comparisons that are     finish: 0.85 times the time; the nine frames: 0.96  yes
+      operators, fused multiply-adds in points, fits and
+      interpolations (this row and those down to APART:
+      processor time, interleaved, on a busy machine)
+    FIRST_PAIRS = 1: two of the five evaluations of most    finish: 0.94 times the time, frames 1.00; the mean  no
+      pixels less                                             is over three points in place of five
+    STEP = 2^-16                                            frames 1.01 times the time                          no
+    no first level: tiles of 8 pixels alone, where that     octic 0.99 times the time, decic 1.03: the first    no
+      of 16 decides least (0.57 of the pixels)                level pays or is even on all nine surfaces
+    APART = 4, as in bernstein, in place of 2               largest error over bernstein's, 320 views of five   yes
+                                                              surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
                                                             0.5 times
 """

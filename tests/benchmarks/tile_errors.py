@@ -1,21 +1,25 @@
 """Compare errors of tiles with bernstein's over whole frames: `python -m tests.benchmarks.tile_errors`.
 
-Each row is a surface of the catalog that tiles accepts, in one of three views. All rays of a frame are cast by tiles
+Each row is a surface of the catalog that tiles accepts, in one of three views, or with `--views N` in one of N views
+from random directions, which `--seed` chooses. All rays of a frame are cast by tiles
 and by bernstein in float32, and by bernstein in float64, which tells their errors. Only rays count on which all three
 hit and whose error is under MARGIN: a larger one belongs to another root.
 
 Columns: rays that count; the 99.9th percentile and the largest of the errors, in domain radii, of tiles and of
-bernstein; both of tiles over those of bernstein; the stage that answered the ray with tiles' largest error.
+bernstein; both of tiles over those of bernstein; the stage that answered the ray with tiles' largest error. The last
+lines sum up the ratios of all views: those of the largest errors scatter widely, since they are of one ray each.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 import surfaces
 from harness.contract import RayStatus, Surface, View
@@ -87,6 +91,8 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("names", nargs="*", help="surfaces; all that tiles accepts if none is given")
     parser.add_argument("--size", type=int, default=512)
     parser.add_argument("--device", default="opencl:intel")
+    parser.add_argument("--views", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args(arguments)
     device = open_device(options.device)
     heads = [f"{what:>9}" for what in ("tiles", "largest", "bernstein", "largest")]
@@ -94,13 +100,33 @@ def main(arguments: Sequence[str]) -> int:
     ratios = list[tuple[float, float]]()
     for surface in map(surfaces.get, options.names) if options.names else accepted():
         caster = Caster(device, surface)
-        for view in VIEWS:
+        for view in random_views(options.views, options.seed) if options.views else VIEWS:
             errors = compared(caster, view, options.size)
             ratios.append(errors.ratios)
             print(row(surface.name, view.name, errors), flush=True)
-    mean, top = np.exp(np.log(ratios).mean(axis=0)), np.max(ratios, axis=0)
-    print(f"ratios in the geometric mean {mean[0]:.2f} and {mean[1]:.2f}, at most {top[0]:.2f} and {top[1]:.2f}")
-    return int(top.max() > 1.0)
+    print(summary(np.array(ratios)))
+    return int(np.max(ratios) > 1.0)
+
+
+def random_views(count: int, seed: int) -> tuple[View, ...]:
+    """Return views from random directions; the same seed makes the same ones."""
+    random = np.random.default_rng(seed)
+    angles = zip(random.uniform(0.0, 360.0, count), random.uniform(-80.0, 80.0, count), strict=True)
+    return tuple(View(f"view {k}", azimuth=float(a), elevation=float(e)) for k, (a, e) in enumerate(angles))
+
+
+def summary(ratios: NDArray[np.float64]) -> str:
+    """Write what the ratios float64[n, 2] of quantiles and of largest errors come to."""
+    lines = []
+    for what, of in zip(("99.9th percentile", "largest"), ratios.T, strict=True):
+        logs = np.log(of)
+        spread = ", ".join(f"{value:.2f}" for value in np.quantile(of, [0.05, 0.25, 0.5, 0.75, 0.95]))
+        lines.append(
+            f"{what}: {len(of)} views; geometric mean {math.exp(logs.mean()):.3f}, its standard error "
+            f"{logs.std() / math.sqrt(len(of)):.3f}; quantiles 5, 25, 50, 75 and 95 %: {spread}; at most "
+            f"{of.max():.2f}; above 1 in {np.mean(of > 1.0):.2f} of the views"
+        )
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
