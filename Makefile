@@ -54,7 +54,7 @@ check: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/firsthit compile --together --timeout 300 --surface torus --surface barth_sextic
+	$(BIN)/firsthit compile --together --timeout 300 --surface torus
 
 format: $(READY)
 	$(BIN)/ruff format .
