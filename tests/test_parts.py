@@ -15,7 +15,7 @@ import pytest
 
 from harness import ROOT
 from harness.contract import FirsthitError
-from harness.results import compaction, parts, sealed
+from harness.results import compaction, parts, salvage, sealed
 from harness.results.schema import SCHEMA
 from harness.results.store import FORMAT, Store
 from harness.verifying import checks
@@ -204,6 +204,31 @@ def test_a_damaged_part_is_told_and_costs_its_rows_only(packed, filed):
     assert f"{len(lost)} rows of {len(lost)} cannot be read" in run.unreadable[0].problem
     failing = checks.verify([packed], lambda _: 0, 1).failing
     assert part in [one.file for one in failing]
+
+
+DIES = """import os, sys
+from pathlib import Path
+from harness.results import salvage_child
+read = salvage_child._readable
+def dying(path):
+    for told in list(read(path))[:3]:
+        yield told
+    sys.stdout.flush()
+    os.abort()
+salvage_child._readable = dying
+salvage_child._print(Path(sys.argv[1]), sys.stdout.buffer)
+"""
+
+
+def test_a_part_that_ends_who_reads_it_gives_what_was_read_by_then(packed, monkeypatch):
+    """As pyarrow ends the process for some damaged files: a C++ exception in one of its threads."""
+    path = parts.parts_in(packed)[0]
+    _changed(path, 4)  # of a column that is no text of a row
+    monkeypatch.setattr(salvage, "COMMAND", (sys.executable, "-c", DIES))
+    part = parts.opened(path)
+    assert len(part.keys) == 2 and "of " in part.problem and "cannot be read" in part.problem
+    store = Store(packed)
+    assert all(store.read(key.decode(), older=True) is not None for key in part.keys.tolist())
 
 
 def test_of_a_part_that_is_changed_elsewhere_the_rows_are_read_by_their_own_checksums(packed, filed):

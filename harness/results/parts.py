@@ -3,7 +3,8 @@
 A part holds of each row the bytes of the file that it had (TEXT), its key, and the columns that reports read. Its name
 holds the SHA-256 of its bytes, as `sha256sum` prints it, so that damage is seen before a value is used. Where that hash
 does not hold, the columns are not used; each row whose own bytes still hold for their own checksum is, and the others
-are lost. A row in a file stands before the same row in a part, and one in a later part before that in an earlier one.
+are lost. Such a part is read by a process of its own (harness.results.salvage), since it may end the one that reads it.
+A row in a file stands before the same row in a part, and one in a later part before that in an earlier one.
 
 Rows lie in groups of some thousand, and reading one row reads its group: `in_storage_order` tells in which order
 reading many is fast.
@@ -26,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, plural
-from harness.results import sealed
+from harness.results import salvage, sealed
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -91,11 +92,13 @@ class Part:
 
     problem: "" where its hash holds; else what is wrong, and how many rows are lost where that can be told
     keys: of its rows that can be read, sorted
-    rows: the place of each in the part
+    rows: the place of each in the part, or in `saved`
+    saved: the bytes of the rows that can be read where its hash does not hold; its file is not opened here any more
     """
 
     path: Path
     problem: str = ""
+    saved: list[bytes] | None = None
     keys: NDArray[np.bytes_] = field(default_factory=lambda: _NO_KEYS)
     rows: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
 
@@ -127,11 +130,17 @@ class Part:
 
     def group_of(self, row: int) -> tuple[int, int]:
         """Return in which group of rows a row lies, and its place there."""
+        if self.saved is not None:
+            return 0, row
         group = bisect.bisect_right(self.ends, row)
         return group, row - (self.ends[group - 1] if group else 0)
 
     def texts(self, group: int) -> pa.ChunkedArray:
         """Read the bytes of the rows of a group. Raises OSError or ValueError where they are damaged."""
+        if self.saved is not None:
+            import pyarrow as pa
+
+            return pa.chunked_array([pa.array(self.saved, pa.large_binary())])
         _ = self.ends  # holds the groups' sizes against what is allowed
         with damage():
             found = self.file.read_row_group(group, columns=[TEXT], use_threads=False).column(0)
@@ -156,17 +165,17 @@ def opened(path: Path) -> Part:
             with damage():
                 found = _bytes_of(part.file.read(columns=[KEY], use_threads=False).column(0).to_pylist())
         else:
-            found, kept = _readable(part)
-            lost = part.ends[-1] - len(found)
-            part.problem = (
-                "the hash in its name does not hold: the file was changed after it was written; "
-                f"{plural(lost, 'row')} of {part.ends[-1]:,} cannot be read"
-            )
+            total, texts = salvage.rows_of(path)
+            keys, part.saved = _sound(texts)
+            found = _bytes_of(keys)
+            lost = "none of its rows can be read"
+            if total is not None and len(keys) <= total:
+                lost = f"{plural(total - len(keys), 'row')} of {total:,} cannot be read"
+            part.problem = f"the hash in its name does not hold: the file was changed after it was written; {lost}"
     except (OSError, ValueError) as error:
         return Part(path, sealed.problem(error) or "it cannot be read")
     order = np.argsort(found, kind="stable")
-    rows = np.arange(len(found)) if whole else np.array(kept, np.int64)
-    part.keys, part.rows = found[order], rows[order]
+    part.keys, part.rows = found[order], np.arange(len(found))[order]
     return part
 
 
@@ -178,24 +187,18 @@ def _bytes_of(keys: Iterable[str]) -> NDArray[np.bytes_]:
     return np.array(told, dtype=np.bytes_) if told else _NO_KEYS
 
 
-def _readable(part: Part) -> tuple[NDArray[np.bytes_], list[int]]:
-    """Return the keys of the rows whose own bytes hold, and their places. Raises OSError or ValueError."""
-    keys, rows, start = list[str](), list[int](), 0
-    for group, end in enumerate(part.ends):
+def _sound(texts: Iterable[bytes]) -> tuple[list[str], list[bytes]]:
+    """Return the keys of the rows whose own bytes hold, and these bytes."""
+    keys, kept = list[str](), list[bytes]()
+    for text in texts:
         try:
-            texts = part.texts(group).to_pylist()
-        except (OSError, ValueError):
-            texts = []
-        for row, text in enumerate(texts, start):
-            try:
-                document = sealed.unsealed(text) if text and sealed.has_seal(text) else {}
-            except ValueError:
-                continue
-            if isinstance(key := document.get("key"), str) and key.isascii() and key.isalnum() and len(key) <= 64:
-                keys.append(key)
-                rows.append(row)
-        start = end
-    return _bytes_of(keys), rows
+            document = sealed.unsealed(text) if sealed.has_seal(text) else {}
+        except ValueError:
+            continue
+        if isinstance(key := document.get("key"), str) and key.isascii() and key.isalnum() and len(key) <= 64:
+            keys.append(key)
+            kept.append(text)
+    return keys, kept
 
 
 class Parts:

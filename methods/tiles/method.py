@@ -88,14 +88,14 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
       interpolations (this row and those down to APART:
       processor time, interleaved, on a busy machine)
     FIRST_PAIRS = 1: two of the five evaluations of most    finish: 0.94 times the time, frames 1.00; the mean  no
-      pixels less                                             is over three points in place of five
+      pixels less                                           is over three points in place of five
     STEP = 2^-16                                            frames 1.01 times the time                          no
     no first level: tiles of 8 pixels alone, where that     octic 0.99 times the time, decic 1.03: the first    no
-      of 16 decides least (0.57 of the pixels)                level pays or is even on all nine surfaces
+      of 16 decides least (0.57 of the pixels)              level pays or is even on all nine surfaces
     APART = 4, as in bernstein, in place of 2               largest error over bernstein's, 320 views of five   yes
-                                                              surfaces: 0.91 to 0.85; no other time
+                                                            surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
-                                                            0.5 times
+                                                          0.5 times
 """
 
 from collections.abc import Mapping

@@ -171,8 +171,8 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
     files, own = place.shared / "files", place.own / "files"
     shutil.copytree(files, own)
     goods = {kind.name: kind.read(own) for kind in KINDS}
-    for _ in range(EACH):
-        for kind in KINDS:
+    for number in range(EACH):
+        for kind in (kind for kind in KINDS if number % kind.every == 0):
             seen[f"{kind.name}: {_tried(dice, kind, goods[kind.name], files, own)}"] += 1
     if dice.random() < REPORTED:
         seen[_reported(dice, place.shared, place.own)] += 1

@@ -55,6 +55,7 @@ class Kind:
     read: reads the file in a folder as commands do; returns None where it is made again. Raises ValueError, OSError or
         FirsthitError where it is named
     sound: tells whether a value that was read may become a figure
+    every: it is tried once in so many times; more than 1 where a damaged file is read by a process of its own
     """
 
     name: str
@@ -62,6 +63,7 @@ class Kind:
     form: str
     read: Callable[[Path], Any]
     sound: Callable[[Any], bool] = lambda _: True
+    every: int = 1
 
 
 def _row(key: str) -> Callable[[Path], Any]:
@@ -202,7 +204,7 @@ def _archive(folder: Path) -> Any:
 KINDS = (
     Kind("cells", f"cells/{KEY}.json", "json", _row(KEY), _sound_row),
     Kind("families", f"cells/{LADDER}.json", "json", _row(LADDER), _sound_row),
-    Kind("parts", "part.parquet", "parquet", _part, _sound_row),
+    Kind("parts", "part.parquet", "parquet", _part, _sound_row, every=20),
     Kind("plan", "plan.json", "json", lambda folder: vars(load.plan_of(folder)), lambda _: True),
     Kind("studies", "condition_numbers.json", "json", _study("condition_numbers"), _finite),
     Kind("studies of rays", "torus_along_rays.json", "json", _study("torus_along_rays"), _finite),
