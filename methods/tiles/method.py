@@ -95,7 +95,7 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
     APART = 4, as in bernstein, in place of 2               largest error over bernstein's, 320 views of five   yes
                                                             surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
-                                                          0.5 times
+                                                            0.5 times
 """
 
 from collections.abc import Mapping
