@@ -32,10 +32,12 @@ RAYS = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
 EXEMPT = {
     "harness/commands/pictures.py": {"save"},  # into memory
     "harness/devices/opencl.py": {"write_text", "copy"},  # a list of drivers, gone when it is read
-    "harness/gate/export.py": {"write_text", "savez"},  # into the folder of revision.py
+    "harness/gate/export.py": {"write_text", "save", "savez"},  # into the folder of revision.py
     "harness/gate/servers.py": {"open"},  # appends to the summary of a step, which is GitHub's file
     "harness/hosting/process.py": {"write_text"},  # a wish to the system, of which process to end first
+    "harness/merging/merge.py": {"write_text", "open"},  # by the store, and into the writer's temporary file
     "harness/oracle/cache.py": {"open", "savez"},  # into the writer's temporary file
+    "harness/results/archive.py": {"open"},  # into the writer's temporary file, and into a temporary folder
     "harness/results/compaction.py": {"write_table"},  # into the writer's temporary folder
     "harness/results/store.py": {"write_text"},  # its own, by the writer
     "harness/results/writing.py": {"mkstemp", "TemporaryDirectory", "open", "write_bytes", "savez_compressed"},
