@@ -53,7 +53,7 @@ def is_running(pid: int) -> bool:
         return False
 
 
-def ended(pids: list[int], seconds: float = 10.0) -> bool:
+def ended(pids: list[int], seconds: float = 60.0) -> bool:
     """Tell whether processes end within some seconds."""
     end = time.monotonic() + seconds
     while any(map(is_running, pids)) and time.monotonic() < end:
