@@ -59,11 +59,11 @@ class Packed:
     mended: int = 0
 
 
-def schema() -> pa.Schema:
-    """Return the columns of a part: those of reports, the family of hard rays, and the row's bytes."""
+def arrow_types() -> dict[Kind, pa.DataType]:
+    """Return the type of Arrow for each kind of field."""
     import pyarrow as pa
 
-    kinds: dict[Kind, pa.DataType] = {
+    return {
         "text": pa.string(),
         "real": pa.float64(),
         "whole": pa.int64(),
@@ -71,6 +71,13 @@ def schema() -> pa.Schema:
         "json": pa.string(),
         "reals": pa.list_(pa.float64()),
     }
+
+
+def schema() -> pa.Schema:
+    """Return the columns of a part: those of reports, the family of hard rays, and the row's bytes."""
+    import pyarrow as pa
+
+    kinds = arrow_types()
     told = [pa.field(field.name, kinds[field.kind]) for field in FIELDS]
     return pa.schema([*told, pa.field(FAMILY, pa.string()), pa.field(parts.TEXT, pa.binary())])
 

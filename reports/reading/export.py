@@ -15,6 +15,7 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 from harness.escaping import cell
+from harness.results import compaction
 from harness.results.schema import DERIVED, SCHEMA, Field, Kind
 from reports.reading.columns import BATCH, Columns
 
@@ -28,14 +29,7 @@ _DTYPES: dict[Kind, str] = {
     "json": "object",
     "reals": "object",
 }
-_ARROW: dict[Kind, pa.DataType] = {
-    "text": pa.string(),
-    "real": pa.float64(),
-    "whole": pa.int64(),
-    "flag": pa.bool_(),
-    "json": pa.string(),
-    "reals": pa.list_(pa.float64()),
-}
+_ARROW = compaction.arrow_types()
 
 
 def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFrame:
