@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import tempfile
 import zlib
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 
+from harness.conformance import dense
 from harness.contract import DeviceInfo
 from harness.devices import kept_answers
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
+CACHES = {"PYOPENCL_NO_CACHE": "0", "POCL_KERNEL_CACHE": "1", "MESA_SHADER_CACHE_DISABLE": "false"}
 
 
 @cache
@@ -26,8 +30,9 @@ def _found(backend: str) -> list[DeviceInfo]:
 
 @cache
 def usable_devices() -> tuple[DeviceInfo, ...]:
-    """Return the devices of this machine that have no problem, looked for once."""
-    return tuple(info for backend in INSTALL for info in _found(backend) if not info.problem)
+    """Return the devices of this machine that have no problem, looked for once; what compiles soonest is the first."""
+    usable = (info for backend in INSTALL for info in _found(backend) if not info.problem)
+    return tuple(sorted(usable, key=lambda info: not info.name.startswith("opengl:")))
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +47,12 @@ def devices_found_once() -> Iterator[None]:
         patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         yield
+
+
+@pytest.fixture
+def few_degrees(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let conform, in this process, try dense polynomials of two degrees, not of twenty."""
+    monkeypatch.setattr(dense, "DEGREES", (5, 16))
 
 
 def rotation(pairs: list[tuple[Any, ...]], places: list[tuple[str, str]]) -> list[tuple[Any, tuple[str, str]]]:
@@ -66,18 +77,62 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         metafunc.parametrize("device", names or nothing, indirect=True)
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Let tests, and the commands that they start, keep the programs that they compile, in a folder of this session.
+
+    Many compile the same ones. The user's own cache folder is neither read nor written.
+    """
+    if "PYTEST_XDIST_WORKER" not in os.environ:  # which has what the process has that started it
+        folder = tempfile.TemporaryDirectory(prefix="firsthit-tests-", ignore_cleanup_errors=True)
+        config.add_cleanup(folder.cleanup)
+        os.environ.update({**CACHES, "XDG_CACHE_HOME": folder.name})
+
+
+@pytest.fixture
+def no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let commands compile each program anew: a process that dies as it writes leaves the cache locked."""
+    monkeypatch.setenv("PYOPENCL_NO_CACHE", "1")
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--every-device", action="store_true", help="run each case on every device, not on one in turn")
+    parser.addoption("--every-case", action="store_true", help="run every case of every test on every device")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave each case of a test that has several cases on one device; which one is as by chance, but always the same.
+    """Leave out cases that are like others; which ones is as by chance, but always the same.
 
-    Most of a case's time is its program's compilation. A test without other parameters runs on every device, and so
-    does each case with `--every-device`.
+    Of a test marked `one_in(n)`, every n-th case stays, and one at least. Each case of a test that has several stays on
+    one device. A test without other parameters runs on every device. With `--every-case`, or where FIRSTHIT_RAYS asks
+    for more rays, nothing is left out.
+
+    Most of a case's time is its program's compilation.
     """
-    if config.getoption("--every-device"):
+    if config.getoption("--every-case") or "FIRSTHIT_RAYS" in os.environ:
         return
+    left_out = _beyond_its_share(items)
+    left_out |= _on_other_devices([item for item in items if item not in left_out])
+    config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+    items[:] = [item for item in items if item not in left_out]
+
+
+def _beyond_its_share(items: Sequence[pytest.Item]) -> set[pytest.Item]:
+    """Return the cases that the mark `one_in` leaves out."""
+    marked: dict[str, list[tuple[pytest.Item, int]]] = {}
+    for item in items:
+        if (mark := item.get_closest_marker("one_in")) is not None:
+            marked.setdefault(item.nodeid.partition("[")[0], []).append((item, *mark.args))
+    left_out: set[pytest.Item] = set()
+    for cases in marked.values():
+        by_chance = sorted(cases, key=lambda case: zlib.crc32(case[0].nodeid.encode()))
+        left_out.update(item for at, (item, step) in enumerate(by_chance) if at % step)
+    return left_out
+
+
+def _on_other_devices(items: Sequence[pytest.Item]) -> set[pytest.Item]:
+    """Return each case on the devices that it is not left on. OpenGL's compile soonest and get more.
+
+    The cases of a test that has one case are all left.
+    """
     names = {info.name for info in usable_devices()}
     cases: dict[str, dict[str, dict[str, pytest.Item]]] = {}
     for item in items:
@@ -88,10 +143,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     left_out: set[pytest.Item] = set()
     for test, found in cases.items():
         for case, on in found.items() if len(found) > 1 else ():
-            chosen = sorted(on)[zlib.crc32(f"{test} {case}".encode()) % len(on)]
+            places = sorted([*on, *(name for name in on if name.startswith("opengl:"))])
+            chosen = places[zlib.crc32(f"{test} {case}".encode()) % len(places)]
             left_out.update(item for device, item in on.items() if device != chosen)
-    config.hook.pytest_deselected(items=[item for item in items if item in left_out])
-    items[:] = [item for item in items if item not in left_out]
+    return left_out
 
 
 def _parts(item: pytest.Item, devices: Collection[str]) -> tuple[str, str, str] | None:

@@ -21,6 +21,8 @@ from tests.campaigns.frame import Campaign, Fell, Place
 from tests.conftest import usable_devices
 from tests.made_formulas import largest
 
+pytestmark = pytest.mark.usefixtures("no_cache")
+
 
 @pytest.mark.parametrize("name", frame.names())
 def test_the_small_part_of_a_campaign(name: str, tmp_path: Path) -> None:

@@ -24,6 +24,8 @@ from harness.devices.host import Host
 from harness.running import run as running
 from tests.sleeping_device import HOST, INFO, SleepingExecutor, cluster, config, until
 
+pytestmark = pytest.mark.usefixtures("no_cache")
+
 LAB1, LAB2 = {"opencl:sleeping": 1.0, "on#lab1": 1.0}, {"opencl:sleeping": 1.0, "on#lab2": 1.0}
 
 

@@ -21,6 +21,8 @@ from harness.cluster.spread import ClusterSpread
 from harness.contract import FirsthitError
 from tests.sleeping_device import INFO, cluster, until
 
+pytestmark = pytest.mark.usefixtures("no_cache")
+
 LAB1 = {"opencl:sleeping": 1.0, "on#lab1": 1.0}
 let_go = threading.Event()
 

@@ -76,6 +76,7 @@ def test_what_is_handed_to_a_function_that_is_not_inlined_arrives(name, what, pr
     assert np.abs(got - rows @ [1.0, 2.0, 4.0]).max() < 1e-4
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("method", CASTING)
 @pytest.mark.parametrize("name", OPENCL)
 def test_every_method_answers_alike_where_none_of_its_functions_is_inlined(name, method):
@@ -95,6 +96,7 @@ def degree_18():
     return surface, dense.aimed_rays(surface, 2000, np.random.default_rng(18))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 def test_bernstein_answers_a_dense_polynomial_of_degree_18_alike_on_every_device(precision):
     surface, rays = degree_18()

@@ -13,7 +13,11 @@ from harness.cli import main
 
 from .conftest import usable_devices
 
-pytestmark = pytest.mark.skipif(not usable_devices(), reason="no device")
+pytestmark = [
+    pytest.mark.skipif(not usable_devices(), reason="no device"),
+    pytest.mark.usefixtures("devices_found_once", "few_degrees"),
+]
+
 
 ILLINOIS = {
     "method.py": """
@@ -83,7 +87,6 @@ def _conform(plugins: Path, name: str, capsys, *more: str) -> tuple[int, str]:
     return code, capsys.readouterr().out
 
 
-@pytest.mark.usefixtures("devices_found_once")
 def test_the_readmes_example_conforms_on_every_device(tmp_path, capsys):
     code, out = _conform(_write(tmp_path / "mine", _example()), "mine", capsys, "--surface", "torus")
     assert code == 0, out
@@ -91,7 +94,6 @@ def test_the_readmes_example_conforms_on_every_device(tmp_path, capsys):
         assert re.search(rf"^mine on {info.name}: (\d+) of \1 checks hold$", out, re.MULTILINE)
 
 
-@pytest.mark.usefixtures("devices_found_once")
 def test_regula_falsi_whose_knobs_all_end_at_the_floor_of_float32_conforms(tmp_path, capsys):
     device = ("--device", usable_devices()[0].name)
     code, out = _conform(_write(tmp_path / "illinois", ILLINOIS), "illinois", capsys, *device)
@@ -105,7 +107,6 @@ BROKEN = {
 }
 
 
-@pytest.mark.usefixtures("devices_found_once")
 @pytest.mark.parametrize("check", BROKEN)
 def test_a_failing_check_says_what_was_measured_against_which_limit_by_which_rule(tmp_path, capsys, check):
     wrong, rule = BROKEN[check]
@@ -125,7 +126,6 @@ def test_a_failing_check_says_what_was_measured_against_which_limit_by_which_rul
         assert "the oracle says crossing at" in " ".join(block.split())
 
 
-@pytest.mark.usefixtures("devices_found_once")
 def test_where_nothing_is_checked_nothing_conforms(tmp_path, capsys):
     files = _example()
     files["method.py"] = files["method.py"].replace('name="mine",', 'name="mine", accepts=lambda _: "it likes none",')

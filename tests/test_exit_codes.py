@@ -1,6 +1,7 @@
 """Real processes end with the exit codes that are documented, say what is true, and leave no worker behind."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,10 +11,13 @@ from pathlib import Path
 import pytest
 
 from harness.cli import EXIT_CODES, main
+from harness.hosting import process as hosted
 from harness.stopping import Stopped, code_of, stoppable
 
 from .conftest import usable_devices
 from .synthetic_run import write_run
+
+pytestmark = pytest.mark.usefixtures("no_cache")
 
 ROOT = Path(__file__).parents[1]
 COMMAND = [sys.executable, "-m", "harness.cli"]
@@ -121,18 +125,23 @@ def _stopped(folder, arguments, reached, begun=lambda: True, number=signal.SIGIN
     return process.returncode, told
 
 
+def _two_are_done(told):
+    """Tell whether two of four cells have ended; a slow command tells before of those that it prepares."""
+    return re.search(r"^\[[23]/4\]", told, re.MULTILINE)
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 @pytest.mark.parametrize(("command", "number"), [("run", signal.SIGTERM), ("gate", signal.SIGHUP)])
 def test_a_signal_in_a_step_of_a_worker_has_its_code_and_keeps_what_finished(endless, command, number):
     arguments = ["--plugins", "plugins", command, "endless.toml"]
-    code, told = _stopped(endless, arguments, lambda told: "[2/4]" in told or "[3/4]" in told)
+    code, told = _stopped(endless, arguments, _two_are_done)
     assert code == 130
     kept = "finished cells are kept" + ", with what was checked and timed of others" * (command == "run")
     assert told.splitlines()[-1] == f"firsthit: stopped; {kept}, and the same command goes on from there"
     assert len(list(endless.glob("runs/*/cells/*.json"))) >= 2, "what the message says is true"
     assert not [path for path in endless.rglob(".*") if path.name != ".lock"]
     again = [*arguments, "--force"]
-    code, told = _stopped(endless, again, lambda told: "[2/4]" in told or "[3/4]" in told, number=number)
+    code, told = _stopped(endless, again, _two_are_done, number=number)
     assert code == 128 + number
     assert "the command without --force goes on from there" in told
 
@@ -149,6 +158,22 @@ def test_a_library_that_answers_a_signal_by_an_error_of_its_own_does_not_hide_th
     monkeypatch.setattr("harness.cli._run", stopped_while_numpy_is_imported)
     assert main(["list", "methods"]) == 143
     assert capsys.readouterr().err == "firsthit: stopped\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_a_signal_just_before_a_process_is_started_leaves_no_thread_deaf(monkeypatch):
+    real = signal.pthread_sigmask
+
+    def stopped_when_it_blocks(how, signals):
+        before = real(how, signals)
+        if signals and how == signal.SIG_BLOCK:
+            raise Stopped(signal.SIGTERM)  # as pthread_sigmask does for a signal that came before
+        return before
+
+    monkeypatch.setattr(signal, "pthread_sigmask", stopped_when_it_blocks)
+    with pytest.raises(Stopped):
+        hosted.start("harness.spreading.serving", [], "a worker", {})
+    assert real(signal.SIG_BLOCK, ()) == set()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")

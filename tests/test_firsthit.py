@@ -150,7 +150,7 @@ def test_a_config_that_includes_others_is_one_run(tmp_path, first_device):
 
 @needs_a_device
 def test_a_recommendation_names_device_contenders_and_why_others_fell(tmp_path, first_device, monkeypatch, capfd):
-    few = plugins.Catalog({name: plugins.find_methods().get(name) for name in ("bernstein", "newton", "ray_march")})
+    few = plugins.Catalog({name: plugins.find_methods().get(name) for name in ("analytic", "ray_march")})
     monkeypatch.setattr(plugins, "find_methods", lambda _: few)  # the search itself is the same with all of them
     wished = {"size": 32, "views": 1, "rays": 8, "seconds": 0.01, "runs": tmp_path}
     found = firsthit.recommend("x^2 + y^2 + z^2 - 1", 1e-3, first_device, **wished)
@@ -160,7 +160,7 @@ def test_a_recommendation_names_device_contenders_and_why_others_fell(tmp_path, 
     assert found.contenders and found.contenders[0].error <= 1e-3
     assert found.fallen and all(fallen.why for fallen in found.fallen)
     told: list[str] = []
-    few.plugins.pop("newton"), few.plugins.pop("ray_march")
+    few.plugins.pop("ray_march")
     firsthit.recommend("x^2 + y^2 + z^2 - 1", 1e-3, first_device, tell=told.append, **wished | {"rays": 9})
     assert told[0].startswith("float32: ") and "cells to run" in told[1] and told[2].endswith(" left")
     said = capfd.readouterr()

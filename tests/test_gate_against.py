@@ -85,7 +85,7 @@ def gated(tmp_path, capsys, shared_runs):
     (plugins / "mine").mkdir(parents=True)
     (plugins / "mine" / "method.py").write_text(METHOD)
     (plugins / "mine" / "kernel.glsl").write_text(KERNEL)
-    config.write_text(CONFIG.format(device=device_of("opencl:", "opengl:")))
+    config.write_text(CONFIG.format(device=device_of("opengl:", "opencl:")))
 
     def gate(*arguments, plugins=plugins, runs=shared_runs):
         capsys.readouterr()
@@ -315,7 +315,7 @@ def test_methods_that_the_other_revision_does_not_have_are_new(gated):
         assert main([*words, "--runs", str(gated.runs), "--baseline", str(blessed)]) == 0
         code, out, err = gated("--against", "HEAD", "--baseline", str(blessed), plugins=gated.top / folder)
         assert code == 0 and "\n2 new, 2 pass\n" in out, out + err
-        gated.config.write_text(CONFIG.format(device=device_of("opencl:", "opengl:")))
+        gated.config.write_text(CONFIG.format(device=device_of("opengl:", "opencl:")))
 
 
 def test_an_installation_has_no_revisions_of_its_own(tmp_path, monkeypatch):

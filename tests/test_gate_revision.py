@@ -24,7 +24,7 @@ def top(tmp_path):
     """A repository of one method and its config, committed."""
     made = tmp_path / "repository"
     add_method(made / "plugins" / "mine", "mine")
-    (made / "plugin.toml").write_text(CONFIG.format(device=device_of("opencl:", "opengl:")))
+    (made / "plugin.toml").write_text(CONFIG.format(device=device_of("opengl:", "opencl:")))
     git(tmp_path, "init", "-q", "repository")
     commit(made)
     return made
@@ -37,7 +37,7 @@ def commit(top):
 
 def cells(top):
     """Return what HEAD makes of the config."""
-    device = device_of("opencl:", "opengl:")
+    device = device_of("opengl:", "opencl:")
     return revision.programs_at(revision.found("HEAD", top / "plugins"), top / "plugin.toml", [device]).cells
 
 

@@ -42,7 +42,7 @@ class Recorder:
 @pytest.fixture
 def top(tmp_path):
     """A repository of tiles under another name, and its config, committed."""
-    made, device = tmp_path / "repository", device_of("opencl:", "opengl:")
+    made, device = tmp_path / "repository", device_of("opengl:", "opencl:")
     plugin = made / "plugins" / "my_tiles"
     shutil.copytree(ROOT / "methods" / "tiles", plugin, ignore=shutil.ignore_patterns("__*"))
     text = (plugin / "method.py").read_text()
@@ -55,7 +55,7 @@ def top(tmp_path):
 
 
 def test_tiles_of_the_other_revision_get_its_own_bounds_of_the_surface(top):
-    config, device = top / "plugin.toml", device_of("opencl:", "opengl:")
+    config, device = top / "plugin.toml", device_of("opengl:", "opencl:")
     (former,) = revision.programs_at(revision.found("HEAD", top / "plugins"), config, [device]).cells.values()
     catalog, infos = find_methods(top / "plugins"), [info for info in usable_devices() if info.name == device]
     (planned,) = plan.plan(reading.load_one(config, catalog).on([device]), catalog, infos)

@@ -43,7 +43,8 @@ def test_the_path_has_as_few_commands_as_the_page_says():
     assert [what for what, text in PATH if isinstance(text, str)] == ["illinois/method.py", "illinois/kernel.glsl"]
 
 
-def test_the_path_is_as_written(tmp_path, monkeypatch, capsys, devices_found_once):  # noqa: ARG001
+@pytest.mark.usefixtures("devices_found_once", "few_degrees")
+def test_the_path_is_as_written(tmp_path, monkeypatch, capsys):
     if DEVICE not in [info.name for info in usable_devices()]:
         pytest.skip(f"no {DEVICE}, which the page names")
     monkeypatch.chdir(tmp_path)

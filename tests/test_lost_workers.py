@@ -31,6 +31,8 @@ from harness.verifying.model import CannotTell
 from reports.reading import arrays
 from tests.conftest import usable_devices
 
+pytestmark = pytest.mark.usefixtures("no_cache")
+
 ROOT = Path(__file__).parents[1]
 SERVE = """
 import os, signal, sys, time

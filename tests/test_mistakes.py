@@ -308,7 +308,7 @@ def _plugin(tmp_path, old: str, new: str) -> list[str]:
 MISTAKE = re.compile(r"illinois/kernel\.glsl:[56]\S*: ")  # the kernel begins with an empty line
 
 
-@pytest.mark.usefixtures("devices_found_once")
+@pytest.mark.usefixtures("devices_found_once", "few_degrees")
 @pytest.mark.skipif(not usable_devices(), reason="no device")
 @pytest.mark.parametrize("command", ["compile", "conform"])
 def test_a_missing_semicolon_is_said_once_by_a_command(tmp_path, capfd, command):

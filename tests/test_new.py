@@ -17,7 +17,7 @@ from harness.results import writing
 
 from .conftest import usable_devices
 
-pytestmark = pytest.mark.usefixtures("devices_found_once")
+pytestmark = pytest.mark.usefixtures("devices_found_once", "few_degrees")
 OWN = ["mine.toml", "mine/kernel.glsl", "mine/method.py", "tests/test_mine.py"]
 SHARED = [".github/workflows/gate.yml", ".gitignore", "README.md"]
 

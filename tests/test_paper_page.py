@@ -30,7 +30,8 @@ def test_the_path_has_as_few_commands_as_the_page_says():
     assert [what for what, text in PATH if isinstance(text, str)] == ["paper.toml"]
 
 
-def test_the_path_ends_in_a_table_and_three_figures(tmp_path, monkeypatch, capsys, devices_found_once):  # noqa: ARG001
+@pytest.mark.usefixtures("devices_found_once", "few_degrees")
+def test_the_path_ends_in_a_table_and_three_figures(tmp_path, monkeypatch, capsys):
     pytest.importorskip("typst")
     if not usable_devices():
         pytest.skip("no device")

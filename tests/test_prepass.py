@@ -46,7 +46,7 @@ def spans(device, surface, camera, size):
 
 @pytest.mark.parametrize("name", surfaces.names())
 def test_every_root_lies_between_the_depths_of_its_tile(name):
-    device = opened(usable_devices()[-1].name)
+    device = opened(usable_devices()[0].name)
     surface, rays, truth = _case(name)
     camera = camera_for(_view(name), surface)
     side = round(len(rays) ** 0.5)
@@ -108,7 +108,7 @@ def lost(plain, behind, truth, surface):
 @pytest.mark.parametrize("name", ["torus", "barth_sextic", "dingdong_beamcasting"])
 @pytest.mark.parametrize("method", METHODS)
 def test_no_method_loses_a_root_behind_it(method, name):
-    device = opened(usable_devices()[-1].name)
+    device = opened(usable_devices()[0].name)
     surface, camera, rays, truth = _typical(name)
     if reason := find_methods().get(method).method.accepts(surface):
         pytest.skip(reason)

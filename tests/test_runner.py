@@ -119,6 +119,7 @@ def test_a_second_run_reuses_every_cell_and_force_repeats_them(tmp_path, config)
     assert "8 cells run, 0 reused" in third.stdout
 
 
+@pytest.mark.usefixtures("no_cache")
 def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config):
     path, runs = config(seconds=0.6), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
@@ -151,6 +152,7 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
     assert not (runs / "t" / "begun").exists()
 
 
+@pytest.mark.usefixtures("no_cache")
 def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
     path, runs = config(seconds=1.0), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)

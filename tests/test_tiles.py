@@ -223,7 +223,7 @@ def test_what_tiles_cannot_do_is_refused_in_one_sentence(tmp_path, monkeypatch):
 
 
 def test_a_shot_of_tiles_is_the_image_of_listed_rays_and_has_the_devices_form_of_lanes(monkeypatch):
-    device, made = opened(usable_devices()[-1].name), []
+    device, made = opened(usable_devices()[0].name), []
 
     def stage_program(*stated):
         made.append(stated[-1])

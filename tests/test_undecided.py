@@ -16,7 +16,7 @@ from harness.scenes.camera import camera_for, rays_of
 
 from .conftest import usable_devices
 
-pytestmark = pytest.mark.usefixtures("devices_found_once")
+pytestmark = pytest.mark.usefixtures("devices_found_once", "few_degrees")
 
 PLUGIN = """from harness.contract import Method
 METHOD = Method(name="{name}", source="test")

@@ -11,6 +11,8 @@ import pytest
 
 from harness.devices import serving
 
+pytestmark = pytest.mark.usefixtures("no_cache")
+
 ROOT = Path(__file__).parents[1]
 NO_GUARD = """
 import os, sys, time

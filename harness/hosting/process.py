@@ -52,8 +52,10 @@ def _not_interrupted() -> Iterator[None]:
     A shell or a closed terminal sends it to all of the command's processes. The command alone decides when they end:
     one that ended first would look as if it had crashed.
     """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
     try:
+        # One that came just before is raised here, after which this thread would stay deaf
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)

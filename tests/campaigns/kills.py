@@ -143,7 +143,7 @@ CAMPAIGN = Campaign(
     promise="no finished cell lost or run again, no half-written file, no process left behind, no traceback, no wrong"
     " exit code, no litter after the same command has completed, no other result than an undisturbed run's",
     trial=_trial,
-    small=3,
+    small=1,
     whole=1000,
     each=EACH,
     prepare=prepare,
