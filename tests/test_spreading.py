@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import linecache
 import os
 import signal
 import subprocess
@@ -11,6 +13,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import fields
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -26,6 +29,7 @@ from harness.oracle import fast, first_hits, parts
 from harness.running.trace import usable_device
 from harness.spreading import pool as pools
 from harness.spreading.pool import Pool
+from harness.stopping import Stopped
 from tests import spread_work
 
 ROOT = Path(__file__).parents[1]
@@ -184,6 +188,40 @@ def test_a_script_needs_no_main_guard(tmp_path: Path) -> None:
     told = subprocess.run([sys.executable, str(tmp_path / "plain.py")], **OPTIONS, timeout=120).stdout.split()
     rays = firsthit.rays_of(View("front"), "sphere", 70)
     assert told == ["begins", str(firsthit.oracle("sphere", rays, jobs=1).status.sum())]
+
+
+@pytest.mark.timeout(120)
+def test_a_stop_between_any_two_steps_of_a_map_leaves_the_pool_able_to_close() -> None:
+    """A signal's handler raises wherever the main thread is; so this raises at each line in turn, until none is left.
+
+    No handler runs between the body of a `with` and its end, where Python traces the line once more.
+    """
+    for step in itertools.count():
+        made, steps = Pool(1), 0
+
+        def traced(frame: FrameType, event: str, _: Any, step: int = step) -> Any:
+            nonlocal steps
+            text = linecache.getline(frame.f_code.co_filename, frame.f_lineno).strip()
+            inside = Path(frame.f_code.co_filename).name in ("pool.py", "thread.py", "_base.py")
+            if event == "line" and inside and not text.startswith("with "):
+                steps += 1
+                if steps == step + 1:
+                    raise Stopped(signal.SIGTERM)
+            return traced
+
+        before = sys.gettrace()
+        sys.settrace(traced)
+        try:
+            with contextlib.suppress(Stopped):
+                made.map(spread_work.fails_or_sleeps, [0.001] * 2)
+        finally:
+            sys.settrace(before)
+            pids = made.pids
+            made.close()
+        assert ended(pids, 10.0), step
+        if steps <= step:
+            break
+    assert step > 10
 
 
 @linux

@@ -4,19 +4,24 @@ Workers are started when the first chunk is handed out, and not before: many com
 They wait between two maps without doing anything. Each thread of the pool lends a worker, sends it a chunk and waits
 for its answer, so that whoever is done first takes the next one.
 
+A signal may raise in `map` between any two steps of Python. So threads are started, chunks handed to them and answers
+taken by single steps of C. The locks of `threading` and concurrent.futures would stay taken, or be released twice.
+
 A worker that dies costs its chunk a second try, in another worker. A worker may hold its part of the memory that the
 pool may hold together, half of the machine's; beyond it, it is ended, and the command says so.
 """
 
 from __future__ import annotations
 
+import _thread
 import contextlib
 import math
 import pickle
+import queue
 import subprocess
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent import futures
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
@@ -71,8 +76,10 @@ class _Lost(Exception):
 class _Batch:
     """Hold what one map has under way."""
 
+    function: Callable[[Any], Any]
     stopped: bool = False
     workers: set[_Worker] = field(default_factory=set)
+    done: queue.SimpleQueue[tuple[int, Any, BaseException | None]] = field(default_factory=queue.SimpleQueue)
 
 
 @dataclass(eq=False)
@@ -112,7 +119,9 @@ class Pool:
 
     def __init__(self, jobs: int) -> None:
         self._jobs = jobs
-        self._threads = futures.ThreadPoolExecutor(jobs, thread_name_prefix="spreading")
+        self._todo: queue.SimpleQueue[tuple[_Batch, int, Any] | None] = queue.SimpleQueue()
+        self._started = self._threads = 0  # of threads: how many `map` started, and how many have begun to work
+        self._left: queue.SimpleQueue[None] = queue.SimpleQueue()  # has one for each that has ended
         self._lock = threading.Lock()
         self._idle: list[_Worker] = []
         self._running: set[_Worker] = set()
@@ -128,30 +137,53 @@ class Pool:
         return [worker.process.pid for worker in list(self._running)]
 
     def map(self, function: Callable[[C], A], chunks: Sequence[C]) -> list[A]:
-        batch = _Batch()
-        todo = [self._threads.submit(self._answer, batch, function, chunk) for chunk in chunks]
+        batch = _Batch(function)
+        answers: dict[int, A] = {}
         try:
-            futures.wait(todo, return_when=futures.FIRST_EXCEPTION)
-            for one in todo:  # the first that failed; those behind it may not have begun
-                if one.done():
-                    one.result()
-            return [one.result() for one in todo]
+            while self._started < self._jobs:
+                _thread.start_new_thread(self._work, ())
+                self._started += 1
+            for place, chunk in enumerate(chunks):
+                self._todo.put((batch, place, chunk))
+            while len(answers) < len(chunks):
+                place, answer, error = batch.done.get()
+                if error is not None:
+                    raise error
+                answers[place] = answer
+            return [answers[place] for place in range(len(chunks))]
         except BaseException:
             self._stop(batch)
-            for one in todo:
-                one.cancel()
-            futures.wait(todo)
             raise
 
     def close(self) -> None:
         """End all workers."""
         with self._lock:
             running, self._running, self._idle, self._closed = self._running, set(), [], True
+            threads = self._threads
         for worker in running:
             worker.process.kill()
-        self._threads.shutdown(cancel_futures=True)
+        for _ in range(threads):
+            self._todo.put(None)
+        for _ in range(threads):
+            self._left.get()
         for worker in running:
             worker.ended()
+
+    def _work(self) -> None:
+        """Answer chunks until the pool is closed; those of a map that was stopped are left."""
+        with self._lock:
+            if self._closed:
+                return
+            self._threads += 1
+        while (task := self._todo.get()) is not None:
+            batch, place, chunk = task
+            if batch.stopped or self._closed:
+                continue
+            try:
+                batch.done.put((place, self._answer(batch, chunk), None))
+            except BaseException as error:
+                batch.done.put((place, None, error))
+        self._left.put(None)
 
     def _stop(self, batch: _Batch) -> None:
         """End the workers that work for a batch, so that nothing is left of it."""
@@ -159,15 +191,17 @@ class Pool:
             batch.stopped = True
             for worker in batch.workers:
                 worker.process.kill()
+        while batch.workers:  # until its threads have them back; no lock is waited for, as told above
+            time.sleep(0.001)
 
-    def _answer(self, batch: _Batch, function: Callable[[C], A], chunk: C) -> A:
+    def _answer(self, batch: _Batch, chunk: Any) -> Any:
         """Return what a worker makes of a chunk; another one is asked where the first is lost."""
-        task = pickle.dumps((function, chunk), pickle.HIGHEST_PROTOCOL)
+        task = pickle.dumps((batch.function, chunk), pickle.HIGHEST_PROTOCOL)
         lost: list[str] = []
         while len(lost) < TRIES:
             worker = self._lent(batch)
             try:
-                answered: A = worker.answer(task)
+                answered = worker.answer(task)
             except _Lost as error:
                 lost.append(str(error))
                 self._back(batch, worker, usable=False)
