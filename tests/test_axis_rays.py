@@ -52,7 +52,7 @@ DOUBLE = [info.name for info in usable_devices() if info.float64]
 PLACES = [(info.name, precision) for info in usable_devices() for precision in ("float32", "float64")]
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize(
     ("pair", "place"),
     [
@@ -123,7 +123,7 @@ def _fast() -> Device:
     return opened("opencl:intel" if "opencl:intel" in names else names[0])
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("name", LOW)
 def test_sturm_is_right_along_axes_and_a_hair_off(name):
     surface = surfaces.get(name)

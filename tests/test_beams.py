@@ -79,6 +79,7 @@ def test_no_root_of_any_surface_is_missed(method, knobs, name):
     assert not np.any(hits.status == RayStatus.EXHAUSTED)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("name", TYPICAL)
 def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precision):

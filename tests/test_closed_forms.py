@@ -116,6 +116,7 @@ def test_loop_and_blinns_setting_is_what_they_print():
     assert method.printed == method.settings["Loop-Blinn"] == {"POLISH": 0, "SCREEN": 2}
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("screen", [0, 1, 2])
 @pytest.mark.parametrize("name", ["torus", "cayley", "plane_squared"])
 def test_signs_of_bernstein_coefficients_discard_misses_only(name, screen):

@@ -62,6 +62,7 @@ def plugin_for(method: str, surface: surfaces.Surface, precision: Precision, ben
     return plugin
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("surface_name", conformance.TYPICAL)
 @pytest.mark.parametrize("method", METHODS)
@@ -70,6 +71,7 @@ def test_method_conforms_on_typical_surfaces(device, method, surface_name, preci
     hold(examine(bench, plugin_for(method, surface, precision, bench), views_case(surface), precision))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_tiles_conform_on_a_typical_surface_as_frames(precision):
     bench, surface = bench_on(opened(TILED)), surfaces.get("torus")
@@ -102,7 +104,7 @@ PLACES = [(name, precision) for precision in PRECISIONS for name in DEVICES]
 OTHERS = [(*pair, *place) for pair, place in rotation(_other_pairs(), PLACES)]
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize(("method", "surface_name", "device_name", "precision"), OTHERS)
 def test_method_conforms_on_every_other_surface_in_turn(method, surface_name, device_name, precision):
     bench, surface = bench_on(opened(device_name)), surfaces.get(surface_name)
@@ -124,7 +126,7 @@ def _settings() -> list[tuple[str, str, str]]:
 SETTINGS = [(*one, *place) for one, place in rotation(_settings(), PLACES)]
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize(("method", "setting", "surface_name", "device_name", "precision"), SETTINGS)
 def test_the_papers_settings_conform_in_turn(method, setting, surface_name, device_name, precision):
     bench, surface = bench_on(opened(device_name)), surfaces.get(surface_name)
@@ -142,6 +144,7 @@ def test_touches_are_found_where_that_is_claimed(device, method, precision):
 SWEEPING = [m for m in METHODS if any(p.finer for p in find_methods().get(m).method.parameters)]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("method", SWEEPING)
 def test_finer_knobs_lower_the_error(method):
     hold(examine_knobs(bench_on(opened(DEVICES[0])), find_methods().get(method)))

@@ -48,7 +48,7 @@ def pairs():
     ]
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize(
     ("method", "degree", "device_name", "precision"),
     [(*pair, *place) for pair, place in rotation(pairs(), PLACES)],
@@ -67,7 +67,7 @@ def _held():
     return everywhere if WANTED else in_turn
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize(("degree", "device_name", "precision"), _held())
 def test_no_answer_of_bernstein_is_outside_its_promise(degree, device_name, precision):
     bench, plugin = bench_on(opened(device_name)), find_methods().get("bernstein")

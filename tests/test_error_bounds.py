@@ -148,6 +148,7 @@ SIZE_ALONE = """
 NAMES = ("sphere", "torus", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("name", NAMES)
 def test_no_coefficient_is_off_by_more_than_its_stated_bound(name, precision):
@@ -163,6 +164,7 @@ def _dense(degree: int) -> Surface:
     return surfaces.from_formula(" + ".join([*terms, f"0.8*x^{degree}"]), "sphere:1.1")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("degree", [1, 3, 7, 13, 20])
 def test_the_bounds_hold_on_dense_polynomials(degree):
     for shares in _shares(_dense(degree), "float32"):

@@ -60,6 +60,7 @@ def hold_promise(hits, case, precision):
     return promised.mean()
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(
     ("name", "device_name", "precision"),
     [(name, *PLACES[i % len(PLACES)]) for i, name in enumerate(NAMES)] if PLACES else [],

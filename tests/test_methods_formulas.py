@@ -135,6 +135,7 @@ PAIRS = [(method, name) for method in TAKING for name in CASES if not (name in J
 PLACES = [(info.name, precision) for info in usable_devices() for precision in ("float32", "float64")]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(("pair", "place"), rotation(PAIRS, PLACES), ids=str)
 def test_a_method_finds_the_first_root(pair: tuple[str, str], place: tuple[str, str]) -> None:
     (method, name), (device_name, precision) = pair, place

@@ -258,6 +258,7 @@ def test_eft_and_direct_evaluation_render_the_octic_and_the_decic(device, name, 
     assert error < 2e-6
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["endrass_octic", "barth_decic", "sixteen_ball"])
 def test_without_eft_there_are_artifacts_that_eft_mends(name):
     plain = _score(_fast(), "eft_yuksel", name, 96, BASIS=1, EFT=0, EVAL=0)
@@ -267,6 +268,7 @@ def test_without_eft_there_are_artifacts_that_eft_mends(name):
     assert plain[1] > 4 * compensated[1] > 40 * direct[1]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("method", ["eft_yuksel", "lu_lipschitz"])
 @pytest.mark.parametrize("formula", ["x + 2*y - z - 0.1", "x^3 + y^2*z - 0.2", "x^20 + y^20 + z^20 - 1"])
 def test_degrees_from_1_to_20(method, formula):
@@ -280,6 +282,7 @@ def test_degrees_from_1_to_20(method, formula):
         assert not verdicts.wrong[~verdicts.grazing].any()
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["flirt", "calyx", "barth_sextic"])
 @pytest.mark.parametrize("bound", [0, 1])
 @pytest.mark.parametrize("local", [0, 1, 2])

@@ -84,6 +84,7 @@ def clip_ends(surface: Surface, ray: np.ndarray) -> tuple[mpmath.mpf, mpmath.mpf
     return (max(ends[0], mpmath.mpf(0)), ends[1]) if ends[1] >= 0 else None
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["barth_sextic", "barth_decic", "endrass_octic", "sixteen_ball"])
 def test_polynomials_against_mpmath_roots(name: str) -> None:
     """All roots by Durand-Kerner in 120 digits: the first real one in the clip interval lies in the oracle's."""
@@ -110,6 +111,7 @@ def test_polynomials_against_mpmath_roots(name: str) -> None:
                 assert lower - mpmath.mpf(10) ** -50 <= roots[0] <= upper + mpmath.mpf(10) ** -50
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(
     "formula",
     [

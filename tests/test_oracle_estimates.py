@@ -163,6 +163,7 @@ def of_family(name: str) -> list[tuple[hardcases.Rung, Truth, Compared]]:
     return [(rung, truth, compared(rung.surface, rung.rays, truth)) for rung, truth in rungs]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", hardcases.names())
 def test_estimates_on_hard_rays(name: str) -> None:
     for rung, _, found in of_family(name):
@@ -202,6 +203,7 @@ def test_a_crossing_with_another_in_its_own_blur_is_near_to_another_answer(name:
     assert (truth.margin[in_plane][paired] < 1e-3).all()
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", [n for n in surfaces.names() if surfaces.get(n).algebraic])
 def test_estimates_on_pictures(name: str) -> None:
     surface = surfaces.get(name)

@@ -257,6 +257,7 @@ def random_formula(pick: random.Random, degree: int) -> str:
     return " + ".join(f"({number()})*{product()}" for _ in range(pick.randint(1, 2))) + f" + x^{degree}/4"
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20])
 def test_random_formulas(degree: int) -> None:
     pick, rng = random.Random(degree), np.random.default_rng(degree)

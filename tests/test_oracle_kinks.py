@@ -99,6 +99,7 @@ def test_roots_at_kinks_have_estimates_without_nan() -> None:
         assert truth.margin[0] == 0.0 or truth.status[0] == TruthStatus.CROSSING
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("block", range(4))
 def test_random_distance_functions(block: int) -> None:
     """Boxes, cones, tori, capsules, spheres, joined and cut: all decided, and float64 marching refutes nothing."""

@@ -97,6 +97,7 @@ def test_fragments_differ_in_the_shift_alone():
         assert sum(a != b for a, b in zip(made["nearest"], made[origin], strict=True)) == 1
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["torus", "barth_sextic"])
 @pytest.mark.parametrize("method", RAYS_METHODS)
 def test_from_every_origin_a_method_answers_alike_in_float64(method, name):

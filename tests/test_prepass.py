@@ -44,6 +44,7 @@ def spans(device, surface, camera, size):
     return depths.reshape(across, across, 2).astype(np.float64), int(spent.sum())
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", surfaces.names())
 def test_every_root_lies_between_the_depths_of_its_tile(name):
     device = opened(usable_devices()[0].name)
@@ -105,6 +106,7 @@ def lost(plain, behind, truth, surface):
     return there & (before.wrong == Wrong.RIGHT) & (after.wrong != Wrong.RIGHT)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["torus", "barth_sextic", "dingdong_beamcasting"])
 @pytest.mark.parametrize("method", METHODS)
 def test_no_method_loses_a_root_behind_it(method, name):
