@@ -33,7 +33,7 @@ guide: $(READY)
 	@echo build/guide/index.html
 
 test: $(READY)
-	$(BIN)/python -m pytest -q -n auto --dist worksteal
+	$(BIN)/python -m pytest -q -n auto --dist loadscope
 
 campaign: $(READY)
 	$(BIN)/python -m tests.campaigns --table docs/reliability.md

@@ -35,6 +35,15 @@ def usable_devices() -> tuple[DeviceInfo, ...]:
     return tuple(sorted(usable, key=lambda info: not info.name.startswith("opengl:")))
 
 
+def all_round() -> str:
+    """Return the name of a device that computes each function in both precisions: the first of OpenCL, if any.
+
+    It is "" where there is no device.
+    """
+    names = [info.name for info in usable_devices()]
+    return next((name for name in names if name.startswith("opencl:")), "".join(names[:1]))
+
+
 @pytest.fixture(scope="module")
 def devices_found_once() -> Iterator[None]:
     """Let commands that run in this process find its devices at once.

@@ -13,12 +13,11 @@ import pytest
 import surfaces
 from harness.accuracy.judge import Wrong, judge
 from harness.contract import RayStatus, Surface
-from harness.devices.interface import Device
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import scene_radius
 
-from .conftest import opened, rotation, usable_devices
+from .conftest import all_round, opened, rotation, usable_devices
 from .test_starts import cast_from
 
 METHODS = sorted(
@@ -118,18 +117,13 @@ def _axis_case(surface: Surface) -> tuple[Any, Any]:
 LOW = [name for name in surfaces.names() if 1 <= (surfaces.get(name).degree or 0) <= 4]
 
 
-def _fast() -> Device:
-    names = [info.name for info in usable_devices()]
-    return opened("opencl:intel" if "opencl:intel" in names else names[0])
-
-
 @pytest.mark.one_in(6)
 @pytest.mark.parametrize("name", LOW)
 def test_sturm_is_right_along_axes_and_a_hair_off(name):
     surface = surfaces.get(name)
     rays, truth = _axis_case(surface)
     for precision in ("float32", "float64"):
-        hits = cast_from(_fast(), "sturm", surface, rays, precision)
+        hits = cast_from(opened(all_round()), "sturm", surface, rays, precision)
         if hits is None:
             continue
         verdicts = judge(hits, truth, scene_radius(surface), 1e-3)
@@ -140,7 +134,7 @@ def test_sturm_is_right_along_axes_and_a_hair_off(name):
 @pytest.mark.parametrize("degree", [4, 6, 9])
 def test_a_small_factor_makes_no_miss(degree):
     surface = surfaces.from_formula(f"1e-18*(x^{degree} + y^2 + z^2 - 0.5)", "sphere:1.5")
-    hits = cast_from(_fast(), "sturm", surface, _ray((0, -3, 0.1), (0, 1, 0)), "float32")
+    hits = cast_from(opened(all_round()), "sturm", surface, _ray((0, -3, 0.1), (0, 1, 0)), "float32")
     assert hits is not None
     assert hits.status[0] == RayStatus.HIT
     assert abs(hits.t[0] - 2.3) < 1e-5

@@ -33,12 +33,11 @@ from harness.devices.interface import Device
 from harness.plugins import find_methods
 from harness.scenes.camera import scene_radius
 
-from .conftest import opened, rotation, usable_devices
+from .conftest import all_round, opened, rotation, usable_devices
 from .test_devices import cast
 
 METHODS = [n for n, plugin in find_methods().plugins.items() if plugin.method.answers and plugin.method.casts == "rays"]
 DEVICES = [info.name for info in usable_devices()]
-TILED = next((name for name in DEVICES if name.startswith("opencl:")), "".join(DEVICES[:1]))  # OpenGL's compile slowly
 
 
 def bench_on(device: Device) -> Bench:
@@ -74,19 +73,19 @@ def test_method_conforms_on_typical_surfaces(device, method, surface_name, preci
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_tiles_conform_on_a_typical_surface_as_frames(precision):
-    bench, surface = bench_on(opened(TILED)), surfaces.get("torus")
+    bench, surface = bench_on(opened(all_round())), surfaces.get("torus")
     hold(examine(bench, plugin_for("tiles", surface, precision, bench), views_case(surface), precision))
 
 
 def test_tiles_conform_on_a_dense_polynomial_as_small_frames():
-    bench, case = bench_on(opened(TILED)), dense.case_of(5, dense.seed_of(5), 100)
+    bench, case = bench_on(opened(all_round())), dense.case_of(5, dense.seed_of(5), 100)
     found = list(examine(bench, plugin_for("tiles", case.surface, "float32", bench), case, "float32"))
     assert any(finding.check == "no_false_hit" and finding.holds for finding in found)
     hold(found)
 
 
 def test_tiles_by_intervals_conform_where_f_is_no_polynomial():  # test_tiles_interval casts on every device
-    bench, surface = bench_on(opened(TILED)), surfaces.get("blinn_blob")
+    bench, surface = bench_on(opened(all_round())), surfaces.get("blinn_blob")
     found = list(
         examine(bench, plugin_for("tiles_interval", surface, "float32", bench), views_case(surface), "float32")
     )

@@ -236,6 +236,7 @@ def test_a_study_is_as_old_as_what_it_computes_with(monkeypatch):
 
 def test_settings_of_drivers_and_the_cores_are_told_apart(monkeypatch):
     monkeypatch.delenv("LP_NUM_THREADS", raising=False)
+    monkeypatch.delenv("POCL_KERNEL_CACHE", raising=False)
     before = identity.common([], timed=True)
     monkeypatch.setenv("LP_NUM_THREADS", "1")
     monkeypatch.setenv("POCL_KERNEL_CACHE", "0")  # as the harness itself sets it

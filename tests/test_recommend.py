@@ -20,7 +20,7 @@ from harness.results.lock import Lock
 from harness.running.run import Watcher
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 
-from .conftest import opened, usable_devices
+from .conftest import all_round, opened, usable_devices
 from .test_devices import cast
 
 pytestmark = pytest.mark.usefixtures("devices_found_once")
@@ -40,7 +40,7 @@ ERROR = 1e-4
 def info():
     if not usable_devices():
         pytest.skip("no device")
-    return usable_devices()[0]
+    return next(info for info in usable_devices() if info.name == all_round())
 
 
 def _search(tmp_path, info, surface, methods=METHODS, pictured=False, **wished):

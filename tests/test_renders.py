@@ -14,7 +14,7 @@ from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 
-from .conftest import opened, usable_devices
+from .conftest import all_round, opened
 from .test_devices import cast
 
 SIZE = 40
@@ -44,7 +44,7 @@ def _case(name):
 
 def _agrees(name, method, precision, knobs):
     surface, rays, truth = _case(name)
-    device = opened(usable_devices()[0].name)
+    device = opened(all_round())
     if "STEPS" in knobs and name in THIN:
         knobs = {"STEPS": 1_000_000}  # a step must be shorter than the tube is wide
     verdicts = judge(cast(device, method, surface, precision, rays, **knobs), truth, scene_radius(surface), 0.0)
@@ -70,7 +70,7 @@ FINDS_TOUCHES = [name for name, method in CASTERS.items() if "finds_touch" in me
 @pytest.mark.parametrize("family", hardcases.names())
 @pytest.mark.parametrize("method", NEVER_MISSES)
 def test_a_method_that_claims_it_misses_no_root_of_any_hard_case(method, family):
-    device = opened(usable_devices()[0].name)
+    device = opened(all_round())
     accepted = [group for group in groups.groups(family) if CASTERS[method].accepts(group.surface) is None]
     if not accepted:
         pytest.skip(f"{method} accepts none of the family's surfaces")
@@ -88,7 +88,7 @@ def test_a_method_that_claims_it_finds_touches(method):
     surface, rays, truth = _case("plane_squared")
     if reason := CASTERS[method].accepts(surface):
         pytest.skip(f"{reason}; tests/test_conformance.py has touches of a sphere and a torus")
-    hits = cast(opened(usable_devices()[0].name), method, surface, "float32", rays)
+    hits = cast(opened(all_round()), method, surface, "float32", rays)
     touches = truth.status == TruthStatus.TOUCH
     assert touches.sum() > 100
     assert (hits.status[touches] == RayStatus.HIT).all()
