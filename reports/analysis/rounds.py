@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from harness.results import timings
 from harness.results.timings import Ratio
 from reports import wording
+from reports.reading.tuples import tuples
 
 COLUMNS = ["session", "rounds", "samples_ms"]
 _RATIO = ["ratio", "ratio_low", "ratio_high"]
@@ -67,7 +68,7 @@ def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
     not timed in the rounds of one run.
     """
     other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
-    return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
+    return [ratio(a, b) for a, b in zip(tuples(other), tuples(both[COLUMNS]), strict=True)]
 
 
 def above(row: Any, other: Any) -> float:
@@ -120,7 +121,7 @@ def _to_first(
     and the other one.
     """
     told = [*keys, *COLUMNS]
-    by_key = {tuple(getattr(row, key) for key in keys): row for row in firsts[told].itertuples()}
+    by_key = {tuple(getattr(row, key) for key in keys): row for row in tuples(firsts[told])}
     found = pd.Series(math.nan, rows.index, dtype="float64")
     if rows.empty:
         return found
@@ -135,7 +136,7 @@ def _to_first(
             own = np.array([samples[at] for at in alike], np.float64)
             values[alike] = np.median(together(own, np.array(first.samples_ms, np.float64)), axis=1)
         others = sorted(set(places.tolist()).difference(alike))
-        for at, row in zip(others, rows[told].take(others).itertuples(), strict=True) if others else ():
+        for at, row in zip(others, tuples(rows[told].take(others)), strict=True) if others else ():
             values[at] = alone(first, row)
     return pd.Series(values, rows.index)
 

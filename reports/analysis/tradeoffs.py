@@ -8,6 +8,7 @@ from typing import Any
 from reports import wording
 from reports.analysis import derive, rounds, ties
 from reports.analysis.choices import Choice
+from reports.reading.tuples import tuples
 
 MOST = 2  # of each kind, for one surface
 LESS = 0.8  # what is told has at most this share of the wrong rays, or of the error, of what is told before it
@@ -43,7 +44,7 @@ def faster(choice: Choice) -> list[Trade]:
     rows = choice.rows[~derive.all_right(choice.rows) & choice.rows["wrong_rays"].notna()]
     found: list[Trade] = []
     faster = ~(rounds.medians_over(rows, best) >= 1.0)  # the others are no faster, which takes no test
-    for row in rows[faster].itertuples():
+    for row in tuples(rows[faster]):
         fewer = all(row.wrong_rays <= LESS * trade.row.wrong_rays for trade in found)
         if fewer and ties.is_slower(best, row):
             found.append(Trade(row, rounds.times_over(row, best)))
@@ -61,7 +62,7 @@ def exacter(choice: Choice) -> list[Trade]:
     rows = choice.rows[derive.all_right(choice.rows) & (choice.rows["precision"] == best.precision)]
     found: list[Trade] = []
     bound = LESS * best.error_max
-    for row in rows[rows["error_max"].notna()].itertuples():
+    for row in tuples(rows[rows["error_max"].notna()]):
         if row.Index != best.Index and row.error_max <= bound and row.error_max < best.error_max:
             found.append(Trade(row, rounds.times_over(row, best)))
             bound = LESS * row.error_max
