@@ -68,17 +68,17 @@ def choices(frame: pd.DataFrame) -> list[Choice]:
     rows = fullest_scenes(frame)
     if rows.empty:
         return []
-    order, named = list(dict.fromkeys(frame["surface"])), _names(rows)
-    by_surface = dict(iter(rows.groupby("surface", sort=False)))
-    return [_choice(str(surface), named, by_surface[surface]) for surface in order if surface in by_surface]
+    named = _names(frame.loc[rows.drop_duplicates("comparison").index, _COLUMNS])
+    of = rows.groupby("surface", sort=False).groups
+    order = [surface for surface in dict.fromkeys(frame["surface"]) if surface in of]
+    return [_choice(str(surface), named, frame.loc[of[surface], _COLUMNS]) for surface in order]
 
 
-def _names(rows: pd.DataFrame) -> dict[str, str]:
-    """Return the name of each scene of `rows`, which has one scene of each surface.
+def _names(scenes: pd.DataFrame) -> dict[str, str]:
+    """Return the name of each scene, of which there is one row of each surface.
 
     It is the surface's title, and behind it what is not as in most of the scenes.
     """
-    scenes = rows.drop_duplicates("comparison")
     told = shape_of(scenes)
     unlike = {name: values.where(values != common(values), "") for name, values in told.items()}
     parts = zip(scenes["surface_title"], *unlike.values(), strict=True)
@@ -98,14 +98,17 @@ def common(values: pd.Series) -> Any:
 
 
 def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the contenders of each surface's fullest scene, on the device that has most rows of all."""
+    """Return the contenders of each surface's fullest scene, on the device that has most rows of all.
+
+    They have the columns _CHOSEN_BY.
+    """
     rows = derive.contenders(frame, _CHOSEN_BY)
     if not rows.empty:
         rows = derive.on_fullest_device(rows)
         in_plan_order = rows.sort_index()
         fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
         rows = rows[rows["comparison"].isin(fullest)]
-    return frame.loc[rows.index, _COLUMNS]
+    return rows
 
 
 def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:

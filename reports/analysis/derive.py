@@ -133,8 +133,9 @@ def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
 
 def casters(rows: pd.DataFrame) -> pd.Series:
     """Return the rows' variants without the words for where rays begin: texts, with the index of `rows`."""
-    named = zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True)
-    return pd.Series([str(v).removesuffix(FROM_ORIGIN[o]) for v, o in named], rows.index, dtype=object)
+    pairs = list(zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True))
+    named = {(variant, origin): str(variant).removesuffix(FROM_ORIGIN[origin]) for variant, origin in set(pairs)}
+    return pd.Series([named[pair] for pair in pairs], rows.index, dtype=object)
 
 
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:

@@ -38,6 +38,11 @@ def picture_size(row: Any) -> str:
     return f"{row.size} × {row.size}{samples}"
 
 
+def picture_sizes(rows: pd.DataFrame) -> set[str]:
+    """Write the sizes of the rows' pictures."""
+    return {picture_size(row) for row in tuples(rows[["size", "samples_per_pixel"]].drop_duplicates())}
+
+
 def scene_title(rows: pd.DataFrame) -> str:
     """Write surface, view, size and stage of rows of one scene; `rows` has at least one."""
     first = next(tuples(rows[["surface_title", "view", "size", "samples_per_pixel", "stage"]].head(1)))
