@@ -138,6 +138,7 @@ class _Near:
     def __init__(self, pieces: Sequence[Piece], schema: pa.Schema) -> None:
         self._pieces, self._schema = pieces, schema
         self._held: dict[tuple[int, int], pa.Table] = {}
+        self._files: dict[int, pq.ParquetFile] = {}
 
     def take(self, which: NDArray[np.int32], rows: NDArray[np.int64]) -> pa.Table:
         """Return the rows at these places, in their order."""
@@ -164,7 +165,9 @@ class _Near:
     def _group(self, number: int, part: Part, group: int) -> pa.Table:
         if (number, group) not in self._held:
             with damage():
-                found = part.file.read_row_group(group, columns=self._schema.names)
+                if number not in self._files:
+                    self._files[number] = _opened(part)
+                found = self._files[number].read_row_group(group, columns=self._schema.names)
                 self._held[number, group] = found.select(self._schema.names).cast(self._schema)
         return self._held[number, group]
 
@@ -185,12 +188,18 @@ def _read(part: Part, name: str) -> pa.ChunkedArray:
         raise Refused(part, f"its column {name} is damaged: {problem(error)}") from None
 
 
+def _opened(part: Part, coded: Sequence[str] = ()) -> pq.ParquetFile:
+    """Open the file of a part again, since threads cannot share one; texts of the columns `coded` stay coded."""
+    told = part.file.metadata  # reading it takes most of the time of opening a file
+    return pq.ParquetFile(part.path, metadata=told, read_dictionary=coded, page_checksum_verification=True)
+
+
 def _held(part: Part, field: Field) -> pa.ChunkedArray:
     """Do what `_read` does. Raises OSError or ValueError."""
     name = field.name
     with damage():
         coded = [name] if name in _CODED else []
-        file = pq.ParquetFile(part.path, read_dictionary=coded, page_checksum_verification=True)
+        file = _opened(part, coded)
         if name not in file.schema_arrow.names:
             return pa.chunked_array([pa.nulls(part.ends[-1], _TYPES[name])])  # of an older version
         found = file.read(columns=[name]).column(0)
