@@ -11,7 +11,7 @@ from collections.abc import Iterator
 def uncollected() -> Iterator[None]:
     """Switch Python's search for cyclic garbage off within the block.
 
-    JSON has no cycles. The search takes a fifth of the time of reading 100,000 rows and a third of that of packing them.
+    JSON has no cycles. The search takes a fifth of the time of reading 100,000 rows, a third of that of packing them.
     """
     was = gc.isenabled()
     gc.disable()

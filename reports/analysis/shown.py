@@ -60,7 +60,8 @@ def on_pages(rows: pd.DataFrame) -> pd.DataFrame:
         return rows.head(0)
     told = on_fullest_device(told[told["comparison"] == fullest(told)])
     scene, device = told["comparison"].iloc[0], told["device"].iloc[0]
-    return rows[finished & (rows["comparison"] == scene) & (rows["device"] == device)]
+    chosen = finished & (rows["comparison"] == scene) & (rows["device"] == device)
+    return rows if chosen.all() else rows[chosen]  # of very many rows a copy takes long
 
 
 def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
