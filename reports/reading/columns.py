@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 from array import array as numbers_of
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -254,10 +255,16 @@ def compact(array: pa.Array) -> Any:
     return made
 
 
-def frame(found: Columns, stated: dict[str, str], unread: Collection[str] = ()) -> pd.DataFrame:
+def frame(
+    found: Columns,
+    stated: Mapping[str, str],
+    unread: Collection[str] = (),
+    known: Mapping[str, Sequence[str]] = MappingProxyType({}),
+) -> pd.DataFrame:
     """Make a frame of the columns of SCHEMA but for `unread`; `stated` are those that a plan states.
 
-    Where any is unread, lists of numbers are arrays of the standard library.
+    Where any is unread, lists of numbers are arrays of the standard library. `known` are texts of each row that the
+    caller holds, by their columns: where the row's are the same, no second copy is kept.
 
     Raises Refused where a part holds what its rows cannot hold.
     """
@@ -270,5 +277,8 @@ def frame(found: Columns, stated: dict[str, str], unread: Collection[str] = ()) 
         else:
             column = found.column(field.name)
             told = compact(column) if unread and field.kind == "reals" else values(column, field)
+            if field.name in known:
+                pairs = zip(known[field.name], told, strict=True)
+                told[:] = [own if own == text else text for own, text in pairs]
             made[field.name] = pd.Series(told, dtype=told.dtype, copy=False)  # texts stay objects
     return pd.DataFrame(made)  # columns of a kind in one block of memory

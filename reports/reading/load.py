@@ -95,6 +95,7 @@ class _Found:
     rungs: list[tuple[Any, ...]] = field(default_factory=list)
     unreadable: list[Unreadable] = field(default_factory=list)
     not_run: list[str] = field(default_factory=list)
+    keys: list[str] = field(default_factory=list)  # of the views
     places: list[tuple[int, int]] = field(default_factory=list)  # of each view: -1, or its part; and its place there
 
     def view(self, row: Row) -> None:
@@ -139,11 +140,13 @@ def _load_one(store: Store, plan: Plan, unread: Collection[str]) -> Run:
     for (key, slot), part, place in zip(plan.slots.items(), which.tolist(), places.tolist(), strict=True):
         if part >= 0 and key not in own and not parts[part].problem and place not in ladders[part]:
             found.places.append((part, place))
+            found.keys.append(key)
             continue
         try:
             row = row_of(store.text(key), key)
             if row.get("family") is None:
                 found.view(row)
+                found.keys.append(key)
             else:
                 ladder = _ladder(row, plan.facts)
                 found.families.append(_FAMILY(row | {"run": plan.name}))
@@ -161,7 +164,8 @@ def _load_one(store: Store, plan: Plan, unread: Collection[str]) -> Run:
         damaged = f" ({len(broken)} are unreadable: {broken[0].problem})" if broken else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
     rows = found.columns(parts)
-    views = columns.frame(rows, {"run": plan.name, "baseline": plan.baseline}, unread)
+    known = {"key": found.keys, "slot": [plan.slots[key] for key in found.keys]}
+    views = columns.frame(rows, {"run": plan.name, "baseline": plan.baseline}, unread, known)
     return Run(
         folder,
         plan,
