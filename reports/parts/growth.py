@@ -114,7 +114,10 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
     """
     if axis.needs not in frame:
         return frame.head(0), {}
-    rows = frame.loc[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna(), _READ]
+    timed = (frame["status"] == CellStatus.OK) & frame["median_ms"].notna()
+    if axis.of(frame.loc[timed, [axis.needs]]).nunique() < FEWEST:
+        return frame.head(0), {}
+    rows = frame.loc[timed, _READ]
     rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
     rows = rows[rows["x"] > 0]
     above_floor = _over_floor(rows, axis)
