@@ -143,12 +143,8 @@ def _planes(name: Literal["NEAR", "FAR"]) -> Judge:
     other = {"NEAR": "FAR", "FAR": "NEAR"}[name]
 
     def decide(evidence: Evidence) -> Verdict | None:
-        rows = evidence.finished[
-            (evidence.finished["method"] == "analytic")
-            & (evidence.finished["precision"] == "float32")
-            & (evidence.finished["origin"] == evidence.origin)
-            & evidence.finished["surface"].isin(picks.TORUS)
-        ]
+        rows = evidence.finished("analytic", picks.TORUS)
+        rows = rows[(rows["precision"] == "float32") & (rows["origin"] == evidence.origin)]
         knobs = pd.DataFrame([_knobs(text) for text in rows["parameters"]], index=rows.index)
         if rows.empty or name not in knobs:
             return None

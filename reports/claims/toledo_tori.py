@@ -171,7 +171,7 @@ def detail(evidence: Evidence) -> pd.DataFrame:
 
     Returns what `rounds.over` returns.
     """
-    rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
+    rows = evidence.finished(picks.STURM.method)
     rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
     whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))
     return evidence.over(whole, seen, ["comparison", "device"])
