@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -56,9 +57,16 @@ def medians_over(rows: pd.DataFrame, first: Any) -> NDArray[np.float64]:
     same = np.flatnonzero((session == first.session) & (rounds == first.rounds))
     alike = [at for at in same.tolist() if samples[at]]
     if alike:
-        own = np.array([samples[at] for at in alike], np.float64)
+        own = _times([samples[at] for at in alike])
         found[alike] = np.median(own / np.array(first.samples_ms, np.float64), axis=1)
     return found
+
+
+def _times(samples: Sequence[Sequence[float]]) -> NDArray[np.float64]:
+    """Return rows' times as float64[n, rounds]; all have as many."""
+    if all(isinstance(own, array) for own in samples):  # as reports of many rows hold them
+        return np.frombuffer(b"".join(samples), np.float64).reshape(len(samples), -1)  # type: ignore[arg-type]
+    return np.array(samples, np.float64)
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
@@ -133,7 +141,7 @@ def _to_first(
             continue
         alike = [at for at in places if rounds[at] == first.rounds and session[at] == first.session and samples[at]]
         if alike:
-            own = np.array([samples[at] for at in alike], np.float64)
+            own = _times([samples[at] for at in alike])
             values[alike] = np.median(together(own, np.array(first.samples_ms, np.float64)), axis=1)
         others = sorted(set(places.tolist()).difference(alike))
         for at, row in zip(others, tuples(rows[told].take(others)), strict=True) if others else ():

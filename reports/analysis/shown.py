@@ -44,6 +44,9 @@ def fullest(rows: pd.DataFrame) -> str:
     Of several with equally many it is that with most variants, not counting where their rays begin, and then the
     first in the plan's order.
     """
+    first = rows["comparison"].iloc[0]
+    if (rows["comparison"] == first).all():
+        return str(first)
     told = rows[["comparison", "method"]].assign(variant=casters(rows))
     counted = told.groupby("comparison", sort=False)[["method", "variant"]].nunique()
     return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])

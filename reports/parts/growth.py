@@ -160,12 +160,14 @@ def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
     if rows.empty:
         return []
     rows = rows.loc[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST, [*by, "label", "x", "ms"]]
+    lines = rows.groupby(by, sort=False).ngroup().to_numpy()  # -1 of a row that lacks one of `by`
+    x, ms = rows["x"].to_numpy(), rows["ms"].to_numpy()
+    order = np.lexsort((x, lines))[np.count_nonzero(lines < 0) :]
+    starts = np.flatnonzero(np.diff(lines[order], prepend=-1))
+    names = rows[[*by, "label"]].take(order[starts]).itertuples(index=False, name=None)
     found = []
-    for (*place, variant), own in rows.groupby(by, sort=False):
-        own = own.sort_values("x", kind="stable")
-        fit = power_law(own["x"], own["ms"])
-        told = str(variant), str(own["label"].iloc[0])
-        found.append(Curve(tuple(place), *told, own["x"].to_numpy(), own["ms"].to_numpy(), fit))
+    for (*place, variant, label), at in zip(names, np.split(order, starts[1:]), strict=False):
+        found.append(Curve(tuple(place), str(variant), str(label), x[at], ms[at], power_law(x[at], ms[at])))
     return found
 
 
