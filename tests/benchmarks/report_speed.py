@@ -3,9 +3,10 @@
 `python -m tests.benchmarks.report_speed 100000` makes up a run of so many rows, of 100 surfaces, in a folder that is
 thrown away, and reports it; `python -m tests.benchmarks.report_speed runs/quick runs/papers` reports these. Printed are
 the seconds that making up the rows and their sealed texts took, which in a real run is the work of its cells, those of
-storing them and those of the report, and the report's memory. Each report is made in a process of its own. Of several
-sizes the growth of storing and report together is told: a line by least squares of the relative deviations, and the
-exponent between the two largest sizes, which is 1 where time grows with the rows. Nothing here fails for being slow.
+storing them and those of the report; the seconds of a core that storing and report took, which others on the machine
+change less; and the report's memory. Each report is made in a process of its own. Of several sizes the growth of the
+seconds of a core is told: a line by least squares of the relative deviations, and the exponent between the two largest
+sizes, which is 1 where time grows with the rows. Nothing here fails for being slow.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ PRECISIONS = ("float32", "float64")
 PICTURED = 10  # settings whose rows have arrays, of a run with more rows than files are kept for
 
 
-def make(folder: Path, rows: int) -> float:
-    """Write a run of `rows` rows into `folder`, with arrays, and return the seconds that making them up took.
+def make(folder: Path, rows: int) -> tuple[float, float]:
+    """Write a run of `rows` rows into `folder`, with arrays; return the seconds that making them up took, of a core too.
 
     The rows are of SURFACES surfaces, two precisions, one device, and as many settings of the same five variants as
     that takes.
@@ -53,7 +54,7 @@ def make(folder: Path, rows: int) -> float:
     store = _parts if rows > compaction.MOST else _files
     plan = json.dumps(synthetic_run.plan(list(store(folder, made))))
     (folder / "plan.json").write_bytes(sealed.with_seal(f"{{\n{plan[1:]}"))
-    return made.seconds
+    return made.seconds, made.of_core
 
 
 @dataclass(frozen=True)
@@ -66,17 +67,19 @@ class _Made:
 
 
 class _Timed(Iterator[_Made]):
-    """Give what an iterator gives, and measure the seconds that it takes."""
+    """Give what an iterator gives, and measure the seconds that it takes, and those of a core."""
 
     def __init__(self, made: Iterator[_Made]) -> None:
-        self.seconds, self._made = 0.0, made
+        self.seconds = self.of_core = 0.0
+        self._made = made
 
     def __next__(self) -> _Made:
-        since = time.perf_counter()
+        since, of_core = time.perf_counter(), time.process_time()
         try:
             return next(self._made)
         finally:
             self.seconds += time.perf_counter() - since
+            self.of_core += time.process_time() - of_core
 
 
 def _rows(models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: int) -> Iterator[_Made]:
@@ -137,16 +140,23 @@ def _link(folder: Path, made: _Made) -> None:
         os.link(folder / f"{made.model}.npz", folder / made.row["arrays"])
 
 
-def measure(run: Path, output: Path, *options: str) -> tuple[float, float]:
-    """Report a run in a process of its own; return its seconds, with those of starting, and its peak memory in GB."""
-    before = time.perf_counter()
+def measure(run: Path, output: Path, *options: str) -> tuple[float, float, float]:
+    """Report a run in a process of its own; return its seconds, with those of starting, those of a core, and its GB."""
+    before, of_cores = time.perf_counter(), _of_children()
     told = subprocess.run(
         [sys.executable, "-m", "tests.benchmarks.report_speed", "--one", str(run), str(output), *options],
         capture_output=True,
         text=True,
         check=True,
     )
-    return time.perf_counter() - before, float(told.stdout.split()[-1]) * 1024 / 1e9
+    seconds = time.perf_counter() - before
+    return seconds, _of_children() - of_cores, float(told.stdout.split()[-1]) * 1024 / 1e9
+
+
+def _of_children() -> float:
+    """Return the seconds of a core that processes took which this one started and which have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _one(run: str, output: str, *options: str) -> None:
@@ -159,35 +169,38 @@ def _one(run: str, output: str, *options: str) -> None:
 
 def _main(arguments: list[str]) -> None:
     """Measure what the command line names: numbers of rows, and folders of runs."""
-    print(f"{'run':15} {'made, s':>8} {'stored, s':>10} {'report, s':>10} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}")
+    print(
+        f"{'run':15} {'made':>7} {'stored':>7} {'report':>7} {'of a core':>10} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}"
+    )
     spent: dict[int, float] = {}
     for argument in arguments or ["1000"]:
         with tempfile.TemporaryDirectory() as scratch:
-            run, told, stored = Path(argument), f"{'-':>8} {'-':>10}", 0.0
+            run, told, before = Path(argument), f"{'-':>7} {'-':>7}", 0.0
             if argument.isdigit():
-                run, since = Path(scratch, "run"), time.perf_counter()
-                made = make(run, int(argument))
-                stored = time.perf_counter() - since - made
-                told = f"{made:8.1f} {stored:10.1f}"
+                run, since, of_core = Path(scratch, "run"), time.perf_counter(), time.process_time()
+                made, made_of_core = make(run, int(argument))
+                told = f"{made:7.1f} {time.perf_counter() - since - made:7.1f}"
+                before = time.process_time() - of_core - made_of_core
             output = Path(scratch, "made")
-            seconds, memory = measure(run, output)
+            seconds, of_cores, memory = measure(run, output)
+            of_cores += before
             pdf, html = (output.joinpath(f"report.{form}").stat().st_size / 1e6 for form in ("pdf", "html"))
         name = run.name
         if argument.isdigit():
-            name, spent[int(argument)] = f"{int(argument):,} rows", stored + seconds
-        print(f"{name:15} {told} {seconds:10.1f} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
+            name, spent[int(argument)] = f"{int(argument):,} rows", of_cores
+        print(f"{name:15} {told} {seconds:7.1f} {of_cores:10.1f} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
     if len(spent) > 1:
         print(growth(spent))
 
 
 def growth(spent: Mapping[int, float]) -> str:
-    """Tell how the seconds of runs, by their rows, grow; there are at least two."""
+    """Tell how the seconds of a core of runs, by their rows, grow; there are at least two."""
     rows, seconds = (np.array(values, float) for values in zip(*sorted(spent.items()), strict=True))
     each, fixed = np.polyfit(rows, seconds, 1, w=1.0 / seconds)
     off = np.abs(np.polyval([each, fixed], rows) / seconds - 1.0).max()
     exponent = np.log(seconds[-1] / seconds[-2]) / np.log(rows[-1] / rows[-2])
     return (
-        f"stored and reported: {fixed:.0f} s and {1e3 * each:.3f} ms a row, within {off:.0%} of each; "
+        f"stored and reported, of a core: {fixed:.0f} s and {1e3 * each:.3f} ms a row, within {off:.0%} of each; "
         f"from {rows[-2]:,.0f} to {rows[-1]:,.0f} rows it grows as the rows to the power of {exponent:.2f}"
     )
 
