@@ -37,7 +37,7 @@ PICTURED = 10  # settings whose rows have arrays, of a run with more rows than f
 
 
 def make(folder: Path, rows: int) -> tuple[float, float]:
-    """Write a run of `rows` rows into `folder`, with arrays; return the seconds that making them up took, of a core too.
+    """Write a run of `rows` rows, with arrays; return the seconds that making them up took, and those of a core.
 
     The rows are of SURFACES surfaces, two precisions, one device, and as many settings of the same five variants as
     that takes.
