@@ -20,6 +20,7 @@ from reports.drawing import tables
 from reports.place import checked, place
 from reports.reading import load
 from reports.reading.run import Plan, Run
+from reports.reading.tuples import tuples
 from reports.rendering import document, html
 
 WORST = 10  # changes that the first page lists
@@ -143,7 +144,7 @@ def _places(by: list[str]) -> list[Column]:
 def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
     """Make a line for each cell with the times of both runs."""
     body = []
-    for row in rows.head(tables.ROW_LIMIT).itertuples():
+    for row in tuples(rows.head(tables.ROW_LIMIT)):
         interval = f"{wording.factor(row.ratio_low)} to {wording.factor(row.ratio_high)}"
         times = (row.median_ms_a, row.median_ms_b, row.ratio, interval)
         body.append((*(getattr(row, name) for name in by), *times, row.wrong_rays_a, row.wrong_rays_b))
@@ -167,7 +168,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
     """List the cells whose status, wrong rays, error or evaluations differ."""
     fields = ("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "error_max", "evaluations_mean")
     body = []
-    for row in both.itertuples():
+    for row in tuples(both):
         a, b = ([getattr(row, f"{name}_{side}") for name in fields] for side in "ab")
         status = "" if row.status_a == row.status_b else f"{row.status_a} → {row.status_b}"
         if status or any(not _same(x, y) for x, y in zip(a, b, strict=True)):

@@ -17,6 +17,7 @@ from reports.drawing import images, style
 from reports.drawing.style import Mark
 from reports.reading.arrays import Shelf
 from reports.reading.run import Run
+from reports.reading.tuples import tuples
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +83,7 @@ class Material:
         rows = [shown.in_galleries(self.listed), shown.in_evaluation_maps(self.frame)]
         rows += [figures.rows_of(figure, self.evidence) for figure in figures.FIGURES]
         every = pd.concat(rows).drop_duplicates(["run", "key"])
-        found = (self.shelf.get(row) for row in every.itertuples())
+        found = (self.shelf.get(row) for row in tuples(every))
         mapped = self.frame.loc[self.frame["view_set"] == viewstats.DIRECTIONS, "error_max"].dropna()
         return images.scale_of((arrays for arrays in found if arrays is not None), mapped)
 

@@ -26,6 +26,7 @@ import numpy as np
 
 from harness.contract import FirsthitError
 from harness.results import parts, plan_file
+from harness.results.garbage import uncollected
 from harness.results.schema import SCHEMA, Kind, flattener
 from harness.results.store import ENDING, Row, Store, row_of
 from harness.results.writing import flush, temporary_folder
@@ -106,6 +107,7 @@ def group(part: parts.Part, number: int) -> pa.Table:
         return part.file.read_row_group(number, columns=names).select(names)
 
 
+@uncollected()
 def write_part(folder: Path, rows: Iterable[tuple[Row, bytes]]) -> Path:
     """Write rows, at least one, as the next part of a run's folder, and return it when it is on the disk.
 

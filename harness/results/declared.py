@@ -150,6 +150,7 @@ def _object(kind: Any, rules: Mapping[Any, Rule], needed: Needed) -> Check:
     """Check an object of a TypedDict: most of its leaves are plain and are looked at in one loop, which is fast."""
     checks: dict[str, Check] = {}
     simple: dict[str, tuple[tuple[Any, ...], float, float]] = {}
+    exact: dict[str, Any] = {}  # texts and truth values of which nothing else is stated
     missing: list[str] = []
     for name, stated in typing.get_type_hints(kind, include_extras=True).items():
         optional = typing.get_origin(stated) is NotRequired
@@ -160,12 +161,17 @@ def _object(kind: Any, rules: Mapping[Any, Rule], needed: Needed) -> Check:
         checks[name] = _checker(hint, (), rules, needed)
         if ends := _simple(hint):
             simple[name] = ends
+        plain = hint if hint in (str, bool) else getattr(hint, "__origin__", None)
+        if plain in (str, bool) and not any(isinstance(note, OneOf) for note in notes):
+            exact[name] = plain
     rule = rules.get(kind)
 
     def check(value: Any, path: str) -> None:
         if type(value) is not dict:
             raise ValueError(f"{path or 'it'} is no object: {value!r:.40}")
         for name, one in value.items():
+            if type(one) is exact.get(name):
+                continue
             ends = simple.get(name)
             if ends is not None and type(one) in ends[0] and ends[1] <= one <= ends[2]:
                 continue

@@ -6,6 +6,7 @@ array of another type, and a few bytes that unpack to gigabytes are refused.
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import struct
@@ -13,6 +14,7 @@ import tokenize
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import IO, Any, BinaryIO
 
@@ -33,6 +35,7 @@ DAMAGE: tuple[type[Exception], ...] = (
 )
 _PLAIN = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+_LENGTHS = {(1, 0): "<H", (2, 0): "<I"}  # of the length of a header
 
 
 def read(path: Path, kinds: Mapping[str, Any], fits: Fits, optional: frozenset[str] = frozenset()) -> dict[str, Any]:
@@ -92,9 +95,22 @@ def _member(file: zipfile.ZipFile, info: zipfile.ZipInfo, name: str, kind: np.dt
         return _array(member, info.file_size, wrong)
 
 
+def _header(file: IO[bytes]) -> tuple[Shape, bool, np.dtype[Any]]:
+    """Read the header of an array: its shape, whether it lies by columns, and its type. Raises one of DAMAGE."""
+    version = np.lib.format.read_magic(file)
+    length = file.read(struct.calcsize(_LENGTHS[version]))
+    return _parsed(version, length + file.read(*struct.unpack(_LENGTHS[version], length)))
+
+
+@lru_cache(maxsize=64)  # NumPy compiles the text of a header, and those of one run are few
+def _parsed(version: tuple[int, int], header: bytes) -> tuple[Shape, bool, np.dtype[Any]]:
+    """Parse a header, from the bytes of its length on. Raises one of DAMAGE."""
+    return _HEADERS[version](io.BytesIO(header))
+
+
 def _array(file: IO[bytes], size: int, wrong: Callable[[np.dtype[Any], Shape], str]) -> NDArray[Any]:
     """Read an array of a file of `size` bytes. Raises one of DAMAGE where it is damaged, or `wrong` says what is."""
-    shape, by_columns, kind = _HEADERS[np.lib.format.read_magic(file)](file)
+    shape, by_columns, kind = _header(file)
     count = math.prod(shape)
     if not 0 <= count <= MOST or not all(0 <= side <= MOST for side in shape):
         raise ValueError(f"it claims the shape {shape}")

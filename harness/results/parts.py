@@ -234,13 +234,13 @@ class Parts:
 
     def locate(self, keys: NDArray[np.bytes_]) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
         """Return for each key the place of its part in `all()`, -1 where none has it, and the row's place there."""
-        which, rows = np.full(len(keys), -1, np.int32), np.zeros(len(keys), np.int64)
-        for number, part in enumerate(self.all()):  # a later one overwrites
-            if len(part.keys):
-                at = np.minimum(np.searchsorted(part.keys, keys), len(part.keys) - 1)
-                there = part.keys[at] == keys
-                which[there], rows[there] = number, part.rows[at[there]]
-        return which, rows
+        wanted, places = np.unique(keys, return_inverse=True)
+        which, rows = np.full(len(wanted), -1, np.int32), np.zeros(len(wanted), np.int64)
+        for number, part in enumerate(self.all() if len(wanted) else ()):  # a later one overwrites
+            at = np.minimum(np.searchsorted(wanted, part.keys), len(wanted) - 1)
+            there = np.flatnonzero(wanted[at] == part.keys)[::-1]  # of two rows of one key the first counts
+            which[at[there]], rows[at[there]] = number, part.rows[there]
+        return which[places], rows[places]
 
     def text(self, key: str) -> bytes:
         """Return the bytes of the file that a row had.

@@ -10,11 +10,12 @@ rungs, one of RUNG.
 from __future__ import annotations
 
 import json
+import marshal
 import types
 import typing
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Literal, NotRequired
 
 from harness.results import declared
@@ -174,9 +175,16 @@ def _object(row: dict[str, Any], path: tuple[str, ...]) -> dict[str, Any]:
     return found
 
 
+@lru_cache(maxsize=4096)  # most rows have what other rows have; equal bytes are of equal values
+def _json_of(marshalled: bytes) -> str:
+    """Return as JSON what marshal.dumps returned these bytes for."""
+    return _ENCODE(marshal.loads(marshalled))
+
+
+_ENCODE = json.JSONEncoder(sort_keys=True).encode
 _NOTHING: dict[str, Any] = {}
 _MADE: dict[Kind, Callable[[Any], Any]] = {  # other values are columns' as they are
     "real": float,
-    "json": json.JSONEncoder(sort_keys=True).encode,
+    "json": lambda value: _json_of(marshal.dumps(value)),
     "reals": lambda values: list(map(float, values)),
 }

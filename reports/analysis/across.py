@@ -26,12 +26,10 @@ def comparable(frame: pd.DataFrame) -> pd.DataFrame:
 
     A speed-up is of a variant that answers every ray away from silhouettes rightly.
     """
-    rows = derive.contenders(frame)
+    rows = derive.contenders(frame, list(dict.fromkeys([*CELL, "device", "precision", "speedup"])))
     rows = rows[rows["speedup"].notna()]
-    if rows.empty:
-        return rows
-    rows = rows[rows["precision"] == choices.precision_of(rows)]
-    return rows.sort_index().drop_duplicates([*CELL, "device"])
+    rows = rows[rows["precision"] == choices.precision_of(rows)] if len(rows) else rows
+    return frame.loc[rows.sort_index().drop_duplicates([*CELL, "device"]).index]
 
 
 def devices_of(rows: pd.DataFrame) -> list[str]:
@@ -115,7 +113,8 @@ def answers(frame: pd.DataFrame) -> pd.DataFrame:
 
     The index is CELL and the label. `error` is the largest |t − t*| away from silhouettes, in scene units.
     """
-    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["wrong_rays"].notna()]
+    there = (frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["wrong_rays"].notna()
+    rows = frame.loc[there, [*CELL, "label", "device", "wrong_rays", "error_max"]]
     rows = rows.drop_duplicates([*CELL, "device"])
     rows = rows[rows.groupby(CELL)["device"].transform("size") > 1]
     told = rows.assign(wrong=rows["wrong_rays"].astype("float64"), error=rows["error_max"].astype("float64"))

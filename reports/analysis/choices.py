@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +11,7 @@ import pandas as pd
 
 from reports.analysis import derive, shown, ties
 from reports.analysis.scene_names import picture_size
+from reports.reading.tuples import tuples
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
 _COLUMNS = [
@@ -19,8 +21,7 @@ _COLUMNS = [
     *("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "accuracy_rays"),
     *("error_max", "relative_error_max", "front", "speedup"),
 ]  # of a choice's rows
-
-
+_JUDGED = [*ties.TOLD, "wrong_rays", "error_max", "relative_error_max"]  # what decides
 _CHOSEN_BY = ["surface", "comparison", "device", "method", "variant", "origin"]  # columns that tell the fullest scene
 
 
@@ -56,7 +57,7 @@ class Choice:
         """Return the row that shows the surface: the best, else that with fewest wrong rays."""
         if self.best is not None:
             return self.best
-        return next(self.rows.sort_values("wrong_rays", kind="stable").itertuples())
+        return next(tuples(self.rows.sort_values("wrong_rays", kind="stable")))
 
 
 def choices(frame: pd.DataFrame) -> list[Choice]:
@@ -67,17 +68,17 @@ def choices(frame: pd.DataFrame) -> list[Choice]:
     rows = fullest_scenes(frame)
     if rows.empty:
         return []
-    order, named = list(dict.fromkeys(frame["surface"])), _names(rows)
-    by_surface = dict(iter(rows.groupby("surface", sort=False)))
-    return [_choice(str(surface), named, by_surface[surface]) for surface in order if surface in by_surface]
+    named = _names(frame.loc[rows.drop_duplicates("comparison").index, _COLUMNS])
+    of = rows.groupby("surface", sort=False).groups
+    order = [surface for surface in dict.fromkeys(frame["surface"]) if surface in of]
+    return [_choice(str(surface), named, frame.loc[of[surface], _COLUMNS]) for surface in order]
 
 
-def _names(rows: pd.DataFrame) -> dict[str, str]:
-    """Return the name of each scene of `rows`, which has one scene of each surface.
+def _names(scenes: pd.DataFrame) -> dict[str, str]:
+    """Return the name of each scene, of which there is one row of each surface.
 
     It is the surface's title, and behind it what is not as in most of the scenes.
     """
-    scenes = rows.drop_duplicates("comparison")
     told = shape_of(scenes)
     unlike = {name: values.where(values != common(values), "") for name, values in told.items()}
     parts = zip(scenes["surface_title"], *unlike.values(), strict=True)
@@ -87,7 +88,7 @@ def _names(rows: pd.DataFrame) -> dict[str, str]:
 
 def shape_of(scenes: pd.DataFrame) -> dict[str, pd.Series]:
     """Return view, size and stage of each row as texts."""
-    sizes = pd.Series([picture_size(row) for row in scenes.itertuples()], scenes.index)
+    sizes = pd.Series([picture_size(row) for row in tuples(scenes)], scenes.index)
     return {"view": scenes["view"], "size": sizes, "stage": scenes["stage"]}
 
 
@@ -97,34 +98,43 @@ def common(values: pd.Series) -> Any:
 
 
 def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the contenders of each surface's fullest scene, on the device that has most rows of all."""
+    """Return the contenders of each surface's fullest scene, on the device that has most rows of all.
+
+    They have the columns _CHOSEN_BY.
+    """
     rows = derive.contenders(frame, _CHOSEN_BY)
     if not rows.empty:
         rows = derive.on_fullest_device(rows)
         in_plan_order = rows.sort_index()
         fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
         rows = rows[rows["comparison"].isin(fullest)]
-    return frame.loc[rows.index, _COLUMNS]
+    return rows
 
 
 def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
     """Choose among the rows of one scene."""
     rows = rows.sort_values("median_ms", kind="stable")
-    right = rows[derive.all_right(rows)]
-    usable = [derive.within(rows, error) for error in ERRORS]
-    within = tuple(_fastest(own) for own in usable)
+    judged = rows[_JUDGED]
+    right = judged[derive.all_right(judged)]
+    usable = [derive.within(judged, error) for error in ERRORS]
+    within = [_fastest(own) for own in usable]
     tied_rows = tuple(
         () if won is None else tuple(ties.tied(own, won)) for own, won in zip(usable, within, strict=True)
     )
-    tied = tuple(tuple(written(row, rows) for row in rows.loc[list(at)].itertuples()) for at in tied_rows)
-    nearest = next(right.sort_values("relative_error_max", kind="stable").itertuples(), None)
+    firsts = [*(None if won is None else won.Index for won in within), getattr(_fastest(right), "Index", None)]
+    firsts.append(next(iter(right["relative_error_max"].sort_values(kind="stable").index), None))
+    wanted = {at for at in (*firsts, *itertools.chain(*tied_rows)) if at is not None}
+    of = {row.Index: row for row in tuples(rows[rows.index.isin(wanted)])}
+    *best, fastest, nearest = (of.get(at) for at in firsts)
+    precision = precision_of(rows)
+    tied = tuple(tuple(_written(of[at], precision) for at in own) for own in tied_rows)
     name = named[str(rows["comparison"].iloc[0])]
-    return Choice(surface, name, rows, within, tied, tied_rows, _fastest(right), nearest)
+    return Choice(surface, name, rows, tuple(best), tied, tied_rows, fastest, nearest)
 
 
 def _fastest(rows: pd.DataFrame) -> Any:
-    """Return the fastest of `rows`, which are in order of their medians, as a named tuple; None of none."""
-    return None if rows.empty else next(rows.loc[[ties.best(rows).Index]].itertuples())
+    """Return the fastest of `rows`, which are in order of their medians, as ties.best does; None of none."""
+    return None if rows.empty else ties.best(rows)
 
 
 def others(tied: Sequence[str]) -> list[str]:
@@ -134,9 +144,14 @@ def others(tied: Sequence[str]) -> list[str]:
 
 def precision_of(rows: pd.DataFrame) -> str:
     """Return the precision that most of the rows have, the plan's first of several."""
-    return str(common(rows.sort_index()["precision"]))
+    return str(common(rows["precision"].sort_index()))
 
 
 def written(row: Any, rows: pd.DataFrame) -> str:
     """Write the variant of a row, with its precision where that is not the one of most rows of its scene."""
-    return str(row.label) if row.precision == precision_of(rows) else f"{row.label}, {row.precision}"
+    return _written(row, precision_of(rows))
+
+
+def _written(row: Any, precision: str) -> str:
+    """Write the variant of a row, with its precision where that is another one."""
+    return str(row.label) if row.precision == precision else f"{row.label}, {row.precision}"

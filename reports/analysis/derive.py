@@ -18,7 +18,6 @@ from reports.analysis import rounds
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 _DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
-_CHANGED = {*_ACCURACY, "overhead_share", "baseline"}  # columns that rows have, and that are not left as they are
 FLOOR_FACTOR = 2.0  # a time below this many times the null method's is more the harness's than the method's
 
 
@@ -31,9 +30,13 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     above 1, which sets `peak_too_low` instead.
     """
     given, answers = frame, frame["answers"].astype(bool)
-    frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY if name in frame})
+    silent = np.flatnonzero(~answers)
+    changed = {name for name in _ACCURACY if name in frame and frame[name].iloc[silent].notna().any()}
+    frame = frame.assign(**{name: frame[name].where(answers) for name in changed})
     for name in _DROWNED:  # older rows do not count these rays apart
-        frame[name] = frame[name].mask(frame[name].isna() & frame["misses"].notna(), 0)
+        if (older := frame[name].isna() & frame["misses"].notna()).any():
+            frame[name] = frame[name].mask(older, 0)
+            changed.add(name)
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
@@ -54,7 +57,8 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     frame["peak_too_low"] = (share > 1.0).astype("boolean")
     frame["peak_share"] = share.where(share <= 1.0)
     frame["front"] = _front(frame)
-    made = [name for name in frame.columns if name in _CHANGED or name not in given.columns]
+    changed |= {"overhead_share", "baseline"}
+    made = [name for name in frame.columns if name in changed or name not in given.columns]
     own = frame[made].copy()  # in one block of memory, which columns added one by one are not
     return pd.concat([given.drop(columns=made, errors="ignore"), own], axis=1)  # shares the other columns' memory
 
@@ -133,8 +137,9 @@ def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
 
 def casters(rows: pd.DataFrame) -> pd.Series:
     """Return the rows' variants without the words for where rays begin: texts, with the index of `rows`."""
-    named = zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True)
-    return pd.Series([str(v).removesuffix(FROM_ORIGIN[o]) for v, o in named], rows.index, dtype=object)
+    pairs = list(zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True))
+    named = {(variant, origin): str(variant).removesuffix(FROM_ORIGIN[origin]) for variant, origin in set(pairs)}
+    return pd.Series([named[pair] for pair in pairs], rows.index, dtype=object)
 
 
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from harness.results import timings
 from harness.results.timings import Ratio
 from reports import wording
+from reports.reading.tuples import tuples
 
 COLUMNS = ["session", "rounds", "samples_ms"]
 _RATIO = ["ratio", "ratio_low", "ratio_high"]
@@ -55,9 +57,16 @@ def medians_over(rows: pd.DataFrame, first: Any) -> NDArray[np.float64]:
     same = np.flatnonzero((session == first.session) & (rounds == first.rounds))
     alike = [at for at in same.tolist() if samples[at]]
     if alike:
-        own = np.array([samples[at] for at in alike], np.float64)
+        own = _times([samples[at] for at in alike])
         found[alike] = np.median(own / np.array(first.samples_ms, np.float64), axis=1)
     return found
+
+
+def _times(samples: Sequence[Sequence[float]]) -> NDArray[np.float64]:
+    """Return rows' times as float64[n, rounds]; all have as many."""
+    if all(isinstance(own, array) for own in samples):  # as reports of many rows hold them
+        return np.frombuffer(b"".join(samples), np.float64).reshape(len(samples), -1)  # type: ignore[arg-type]
+    return np.array(samples, np.float64)
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
@@ -67,7 +76,7 @@ def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
     not timed in the rounds of one run.
     """
     other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
-    return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
+    return [ratio(a, b) for a, b in zip(tuples(other), tuples(both[COLUMNS]), strict=True)]
 
 
 def above(row: Any, other: Any) -> float:
@@ -120,7 +129,7 @@ def _to_first(
     and the other one.
     """
     told = [*keys, *COLUMNS]
-    by_key = {tuple(getattr(row, key) for key in keys): row for row in firsts[told].itertuples()}
+    by_key = {tuple(getattr(row, key) for key in keys): row for row in tuples(firsts[told])}
     found = pd.Series(math.nan, rows.index, dtype="float64")
     if rows.empty:
         return found
@@ -132,10 +141,10 @@ def _to_first(
             continue
         alike = [at for at in places if rounds[at] == first.rounds and session[at] == first.session and samples[at]]
         if alike:
-            own = np.array([samples[at] for at in alike], np.float64)
+            own = _times([samples[at] for at in alike])
             values[alike] = np.median(together(own, np.array(first.samples_ms, np.float64)), axis=1)
         others = sorted(set(places.tolist()).difference(alike))
-        for at, row in zip(others, rows[told].take(others).itertuples(), strict=True) if others else ():
+        for at, row in zip(others, tuples(rows[told].take(others)), strict=True) if others else ():
             values[at] = alone(first, row)
     return pd.Series(values, rows.index)
 

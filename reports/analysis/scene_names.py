@@ -8,6 +8,7 @@ from typing import Any
 import pandas as pd
 
 from reports import wording
+from reports.reading.tuples import tuples
 
 
 def scene_names(frame: pd.DataFrame) -> dict[str, str]:
@@ -19,7 +20,7 @@ def scene_names(frame: pd.DataFrame) -> dict[str, str]:
     counted = scenes.groupby("surface")[["view", "size", "samples_per_pixel", "stage"]].nunique() > 1
     differs = {surface: {name for name in counted if row[name]} for surface, row in counted.iterrows()}
     named = {}
-    for row in scenes.itertuples():
+    for row in tuples(scenes):
         several = differs[row.surface]
         parts = [row.surface_title]
         parts += [row.view] if "view" in several else []
@@ -37,9 +38,14 @@ def picture_size(row: Any) -> str:
     return f"{row.size} × {row.size}{samples}"
 
 
+def picture_sizes(rows: pd.DataFrame) -> set[str]:
+    """Write the sizes of the rows' pictures."""
+    return {picture_size(row) for row in tuples(rows[["size", "samples_per_pixel"]].drop_duplicates())}
+
+
 def scene_title(rows: pd.DataFrame) -> str:
     """Write surface, view, size and stage of rows of one scene; `rows` has at least one."""
-    first = next(rows[["surface_title", "view", "size", "samples_per_pixel", "stage"]].head(1).itertuples())
+    first = next(tuples(rows[["surface_title", "view", "size", "samples_per_pixel", "stage"]].head(1)))
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
 

@@ -16,9 +16,12 @@ EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else ea
 MOST_SURFACES = 4  # a run with more surfaces has no maps of evaluations
 
 
-def _pictured(rows: pd.DataFrame) -> pd.DataFrame:
-    """Select the finished rows of methods that answer and whose arrays are stored."""
-    return rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
+_BY = [*("status", "answers", "arrays"), *("comparison", "device", "precision", "method", "variant", "origin")]
+
+
+def _is_pictured(rows: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether it is finished, of a method that answers, and its arrays are stored."""
+    return (rows["status"] == CellStatus.OK) & rows["answers"].astype(bool) & rows["arrays"].notna()
 
 
 def of_surface(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
@@ -27,12 +30,12 @@ def of_surface(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
     They are of the surface's fullest scene, on the device with most rows there. Of each method they are the first in
     the plan's order, so that every precision shows the same variants where that can be.
     """
-    rows = _pictured(rows)
-    if rows.empty:
-        return rows
-    kept = on_fullest_device(rows[rows["comparison"] == fullest(rows)])
+    told = rows.loc[_is_pictured(rows), _BY]
+    if told.empty:
+        return rows.head(0)
+    kept = on_fullest_device(told[told["comparison"] == fullest(told)])
     kept = kept[kept.groupby(["method", "precision"]).cumcount() < per_method]
-    return kept.sort_values(["method", "precision"], kind="stable")
+    return rows.loc[kept.sort_values(["method", "precision"], kind="stable").index]
 
 
 def fullest(rows: pd.DataFrame) -> str:
@@ -41,7 +44,11 @@ def fullest(rows: pd.DataFrame) -> str:
     Of several with equally many it is that with most variants, not counting where their rays begin, and then the
     first in the plan's order.
     """
-    counted = rows.assign(variant=casters(rows)).groupby("comparison", sort=False)[["method", "variant"]].nunique()
+    first = rows["comparison"].iloc[0]
+    if (rows["comparison"] == first).all():
+        return str(first)
+    told = rows[["comparison", "method"]].assign(variant=casters(rows))
+    counted = told.groupby("comparison", sort=False)[["method", "variant"]].nunique()
     return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
 
 
@@ -50,13 +57,14 @@ def on_pages(rows: pd.DataFrame) -> pd.DataFrame:
 
     They are the fullest scene and the device with most rows there, of those with pictures if there are any.
     """
-    finished = rows[rows["status"] == CellStatus.OK]
-    told = _pictured(rows) if len(_pictured(rows)) else finished
+    finished, pictured = rows["status"] == CellStatus.OK, _is_pictured(rows)
+    told = rows.loc[pictured if pictured.any() else finished, _BY]
     if told.empty:
-        return finished
+        return rows.head(0)
     told = on_fullest_device(told[told["comparison"] == fullest(told)])
     scene, device = told["comparison"].iloc[0], told["device"].iloc[0]
-    return finished[(finished["comparison"] == scene) & (finished["device"] == device)]
+    chosen = finished & (rows["comparison"] == scene) & (rows["device"] == device)
+    return rows if chosen.all() else rows[chosen]  # of very many rows a copy takes long
 
 
 def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
@@ -65,7 +73,7 @@ def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
     They are all variants of `on_pages`, or, of more than EVERY_VARIANT, one of each method; at most MOST_MAPS.
     """
     own = on_pages(rows)
-    every = _pictured(own)
+    every = own[_is_pictured(own)]
     kept = every if len(every) <= EVERY_VARIANT else of_surface(own)
     return kept.sort_values(["precision", "median_ms", "error_max"], kind="stable").head(MOST_MAPS)
 
@@ -88,10 +96,10 @@ def in_galleries(frame: pd.DataFrame) -> pd.DataFrame:
 
 def in_evaluation_maps(frame: pd.DataFrame) -> pd.DataFrame:
     """Select the rows whose evaluations are shown ray by ray; none in a run of more than MOST_SURFACES surfaces."""
-    rows = _pictured(frame)
-    if rows.empty or rows["surface"].nunique() > MOST_SURFACES:
-        return rows.head(0)
-    rows = on_fullest_device(rows)
+    there = _is_pictured(frame)
+    if not 0 < frame.loc[there, "surface"].nunique() <= MOST_SURFACES:
+        return frame.head(0)
+    rows = on_fullest_device(frame[there])
     rows = rows[rows["precision"] == rows["precision"].iloc[0]].drop_duplicates(["surface", "view", "variant"])
     by_surface = (own for _, own in rows.groupby("surface", sort=False))
     return pd.concat([own if own["view"].nunique() <= EVERY_VIEW else _worst_views(own) for own in by_surface])

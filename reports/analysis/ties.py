@@ -16,6 +16,7 @@ from harness.results.timings import Ratio
 from reports import wording
 from reports.analysis import derive, rounds
 from reports.analysis.rounds import ratio
+from reports.reading.tuples import tuples
 
 LEVEL = 0.01  # the largest chance that is evidence of a difference
 NEEDED = ranks.pairs_needed(LEVEL)
@@ -23,7 +24,7 @@ FAR = 4.0  # times that differ by more than this factor in every common round ar
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
 COLUMNS = [*rounds.COLUMNS, "median_ms", "lower_ms", "upper_ms"]
-_TOLD = ["method", "variant", "key", *COLUMNS]
+TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
@@ -60,12 +61,12 @@ def _far_slower(row: Any, other: Any) -> bool:
 
 
 def best(rows: pd.DataFrame) -> Any:
-    """Return the fastest of `rows`, as a named tuple of the columns of _TOLD.
+    """Return the fastest of `rows`, as a named tuple of the columns of TOLD.
 
     `rows` are in order of their medians, fastest first; there is at least one. A median is over all rounds of its row.
     So a row takes the place of the first where it is faster in the rounds that timed both.
     """
-    rows = rows[_TOLD]
+    rows = rows[TOLD]
     first, behind = _at(rows, 0), 1
     while behind < len(rows):
         left = rows.iloc[behind:]
@@ -85,7 +86,7 @@ def best(rows: pd.DataFrame) -> Any:
 
 def _at(rows: pd.DataFrame, place: int) -> Any:
     """Return the row at a place as a named tuple."""
-    return next(rows.iloc[place : place + 1].itertuples())
+    return next(tuples(rows.iloc[place : place + 1]))
 
 
 def tied(rows: pd.DataFrame, first: Any) -> list[Any]:
@@ -98,8 +99,8 @@ def tied(rows: pd.DataFrame, first: Any) -> list[Any]:
 
 def _tied(rows: pd.DataFrame, first: Any) -> list[Any]:
     """Return the rows that `tied` tells of, as named tuples."""
-    fastest_of = rows.loc[~rows["method"].duplicated() & (rows["method"] != first.method), _TOLD]
-    return [row for row in fastest_of.itertuples() if not is_slower(row, first)]
+    fastest_of = rows.loc[~rows["method"].duplicated() & (rows["method"] != first.method), TOLD]
+    return [row for row in tuples(fastest_of) if not is_slower(row, first)]
 
 
 def _groups(rows: pd.DataFrame) -> list[pd.DataFrame]:
@@ -113,7 +114,7 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     `tied` lists the rows of other methods that are not told to be slower, of each method its fastest. `methods` is
     the number of methods timed in the group.
     """
-    rows = derive.contenders(frame, [*derive.GROUP, *_TOLD, "wrong_rays"])
+    rows = derive.contenders(frame, [*derive.GROUP, *TOLD, "wrong_rays"])
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
     right = rows[derive.all_right(rows)]
     groups = _groups(right)
@@ -128,5 +129,5 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
 
 def fastest(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row of each group, whether it answers every ray rightly or not."""
-    rows = derive.contenders(frame, [*derive.GROUP, *_TOLD])
+    rows = derive.contenders(frame, [*derive.GROUP, *TOLD])
     return frame.loc[[best(own).Index for own in _groups(rows)]]

@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from reports import wording
 from reports.analysis import derive, rounds, ties
 from reports.analysis.choices import Choice
+from reports.reading.tuples import tuples
 
 MOST = 2  # of each kind, for one surface
 LESS = 0.8  # what is told has at most this share of the wrong rays, or of the error, of what is told before it
@@ -40,13 +44,15 @@ def faster(choice: Choice) -> list[Trade]:
     best = choice.best
     if best is None:
         return []
-    rows = choice.rows[~derive.all_right(choice.rows) & choice.rows["wrong_rays"].notna()]
+    rows, wrong = choice.rows, choice.rows["wrong_rays"].tolist()
+    judged = (~derive.all_right(rows) & rows["wrong_rays"].notna()).to_numpy()
+    faster = ~(rounds.medians_over(rows.loc[judged, rounds.COLUMNS], best) >= 1.0)  # the others take no test
     found: list[Trade] = []
-    faster = ~(rounds.medians_over(rows, best) >= 1.0)  # the others are no faster, which takes no test
-    for row in rows[faster].itertuples():
-        fewer = all(row.wrong_rays <= LESS * trade.row.wrong_rays for trade in found)
-        if fewer and ties.is_slower(best, row):
-            found.append(Trade(row, rounds.times_over(row, best)))
+    for at in np.flatnonzero(judged)[faster].tolist():
+        if not found or wrong[at] <= LESS * found[-1].row.wrong_rays:
+            row = _at(rows, at)
+            if ties.is_slower(best, row):
+                found.append(Trade(row, rounds.times_over(row, best)))
     return _ends(found)
 
 
@@ -58,14 +64,21 @@ def exacter(choice: Choice) -> list[Trade]:
     best = choice.best
     if best is None:
         return []
-    rows = choice.rows[derive.all_right(choice.rows) & (choice.rows["precision"] == best.precision)]
+    rows, errors = choice.rows, choice.rows["error_max"].tolist()
+    own = derive.all_right(rows) & (rows["precision"] == best.precision) & rows["error_max"].notna()
     found: list[Trade] = []
     bound = LESS * best.error_max
-    for row in rows[rows["error_max"].notna()].itertuples():
-        if row.Index != best.Index and row.error_max <= bound and row.error_max < best.error_max:
+    for at in np.flatnonzero(own).tolist():
+        if errors[at] <= bound and errors[at] < best.error_max and rows.index[at] != best.Index:
+            row = _at(rows, at)
             found.append(Trade(row, rounds.times_over(row, best)))
             bound = LESS * row.error_max
     return _ends(found)
+
+
+def _at(rows: pd.DataFrame, place: int) -> Any:
+    """Return the row at a place as a named tuple."""
+    return next(tuples(rows.iloc[place : place + 1]))
 
 
 def _ends(found: list[Trade]) -> list[Trade]:

@@ -10,6 +10,7 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports.analysis.scene_names import picture_size
+from reports.reading.tuples import tuples
 
 FEWEST = 3  # views that a set has at least
 MOST_LISTED = 8  # of a set with more views only the first is in tables that list scenes one by one
@@ -28,7 +29,7 @@ class ViewSet:
     @property
     def first(self) -> Any:
         """Return the first row, as a named tuple."""
-        return next(self.rows.head(1).itertuples())
+        return next(tuples(self.rows.head(1)))
 
     @property
     def kind(self) -> str:

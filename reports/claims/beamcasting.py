@@ -28,6 +28,7 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
+from reports.reading.tuples import tuples
 
 PAPER = "beamcasting"
 TABLES = "beamcasting-tables.toml"
@@ -49,7 +50,7 @@ def _always(evidence: Evidence) -> Verdict | None:
     lost = ratios[ratios["ratio_high"] < 1.0]
     even = int((~(ratios["ratio_low"] > 1.0)).sum()) - len(lost)
     named = ", ".join(
-        f"{r.surface_title} {r.size}×{r.samples_per_pixel} {wording.factor(r.ratio)}" for r in lost.itertuples()
+        f"{r.surface_title} {r.size}×{r.samples_per_pixel} {wording.factor(r.ratio)}" for r in tuples(lost)
     )
     figure = f"{quantities(ratios['ratio'])}; the paper: 1.16× to 2.85×" + (f"; slower: {named}" if named else "")
     figure += f"; not told apart in {even} of {len(ratios)}" if even else ""
@@ -155,7 +156,7 @@ def _complexity(evidence: Evidence) -> Verdict | None:
 def _idle(evidence: Evidence, pick: Pick) -> pd.DataFrame:
     """Return the rows of `pick` that store their levels, with the idle share of warps as `idle`."""
     rows = evidence.rows(pick)
-    idle = [idle_share(row, WARP) for row in rows.itertuples()]
+    idle = [idle_share(row, WARP) for row in tuples(rows)]
     return rows.assign(idle=pd.Series(idle, rows.index, dtype="float64")).dropna(subset=["idle"])
 
 

@@ -33,6 +33,9 @@ _WORDS: Mapping[Origin, str] = {
 }
 
 
+_BY = [*derive.GROUP, "origin", "surface", "parameters"]  # what `Evidence.rows` selects by
+
+
 @dataclass(frozen=True)
 class Pick:
     """Name a method with some of its knobs at stated values.
@@ -62,10 +65,26 @@ class Evidence:
     config: str = ""  # the config whose claims are judged; its first word names the paper, as in RAYS_BEGIN
 
     @cached_property
-    def finished(self) -> pd.DataFrame:
-        """Return the rows of cells that ended well, answer, and were checked against the oracle."""
+    def _finished(self) -> dict[str, NDArray[np.intp]]:
+        """Return by method where the rows of cells are that ended well, answer, and were checked against the oracle."""
         frame = self.frame
-        return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["accuracy_rays"].notna()]
+        there = (frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["accuracy_rays"].notna()
+        places = np.flatnonzero(there)
+        by_method = frame[["method"]].take(places).groupby("method", sort=False).indices
+        return {str(method): places[at] for method, at in by_method.items()}
+
+    @cached_property
+    def _told(self) -> dict[str, pd.DataFrame]:
+        """Return by method what `rows` selects its finished rows by; all columns of very many rows are not copied."""
+        told = self.frame[_BY]
+        return {method: told.take(places) for method, places in self._finished.items()}
+
+    def finished(self, method: str, surfaces: Iterable[str] | None = None) -> pd.DataFrame:
+        """Return all finished rows of a method, of every origin and precision; `surfaces` None takes all surfaces."""
+        places = self._finished.get(method, np.empty(0, np.intp))
+        if surfaces is not None:
+            places = places[self.frame["surface"].take(places).isin(list(surfaces)).to_numpy()]
+        return self.frame.take(places)
 
     def of(self, config: str) -> Evidence:
         """Return the evidence that the claims of `config` are judged by.
@@ -76,8 +95,8 @@ class Evidence:
         if config not in self._judged:
             base = self._runs.get(run_of(config), self)
             self._judged[config] = replace(base, config=config)
-            # these do not depend on the config, and rows are wide
-            vars(self._judged[config]).update(finished=base.finished, _methods=base._methods)
+            # these do not depend on the config
+            vars(self._judged[config]).update(_finished=base._finished, _told=base._told)
         return self._judged[config]
 
     @cached_property
@@ -92,7 +111,7 @@ class Evidence:
         It is the origin that the paper's rays have, if any finished row has it. Else it is the first of ORIGINS that
         any finished row has. Where no row has an origin, it is the paper's.
         """
-        there = set(self.finished["origin"].dropna())
+        there = {origin for told in self._told.values() for origin in told["origin"].dropna().unique()}
         return next((origin for origin in (self._stated, *ORIGINS) if origin in there), self._stated)
 
     @property
@@ -116,16 +135,6 @@ class Evidence:
         runs = self.frame.groupby("run", sort=False)
         return {str(run): replace(self, frame=rows) for run, rows in runs} if runs.ngroups > 1 else {}
 
-    @cached_property
-    def _methods(self) -> dict[str, pd.DataFrame]:
-        """Return the finished rows of each method, by its name."""
-        return {str(method): rows for method, rows in self.finished.groupby("method", sort=False)}
-
-    @cached_property
-    def _none(self) -> pd.DataFrame:
-        """Return a frame of no rows, with the columns of all."""
-        return self.frame.head(0)
-
     def rows(
         self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"
     ) -> pd.DataFrame:
@@ -135,17 +144,20 @@ class Evidence:
         origin, so that their rows go with those of any origin. `precision` None takes all precisions, `surfaces` None
         all surfaces.
         """
-        rows = self._methods.get(pick.method, self._none)
-        kept = _told(rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin)))
+        if pick.method not in self._told:
+            return self.frame.head(0)
+        rows = self._told[pick.method]
+        kept = _true(rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin)))
         if precision is not None:
-            kept = kept & _told(rows["precision"] == precision)
+            kept = kept & _true(rows["precision"] == precision)
         if surfaces is not None:
-            kept = kept & _told(rows["surface"].isin(list(surfaces)))
+            kept = kept & _true(rows["surface"].isin(list(surfaces)))
         if pick.knobs:
             texts = {text: _has(text, pick.knobs) for text in rows["parameters"].unique()}
-            kept = kept & _told(rows["parameters"].map(texts).astype(bool))
-        at = np.flatnonzero(kept)  # rows are wide, so that they are copied once
-        return rows.take(at[~_told(rows[derive.GROUP].take(at).duplicated())])
+            kept = kept & _true(rows["parameters"].map(texts).astype(bool))
+        at = np.flatnonzero(kept)
+        at = at[~rows[derive.GROUP].take(at).duplicated().to_numpy()]
+        return self.frame.take(self._finished[pick.method][at])
 
     def ratios(
         self,
@@ -179,7 +191,7 @@ def run_of(config: str) -> str:
     return Path(config).stem
 
 
-def _told(held: pd.Series) -> NDArray[np.bool_]:
+def _true(held: pd.Series) -> NDArray[np.bool_]:
     """Return a column of truths as an array; what is missing is False."""
     return np.asarray(held.fillna(False), bool)
 

@@ -21,6 +21,7 @@ from reports.claims.model import (
     verdict,
 )
 from reports.claims.szente_fit import PAPER, over_marching
+from reports.reading.tuples import tuples
 
 TABLE_5 = "szente-table5.toml"
 SOME = 0.001  # a share of rays that is larger by a test is called “some rays”
@@ -50,7 +51,7 @@ def _culling_pays(evidence: Evidence) -> Verdict | None:
         low, high = own.iloc[0], own.iloc[-1]
         held.append(at_least(low["ratio_low"], low["ratio_high"], PAYS))
         held.append(at_least(low["ratio_low"] / high["ratio_high"], low["ratio_high"] / high["ratio_low"], 1.0))
-        each = ", ".join(f"{row.surface_title} {wording.factor(row.ratio)}" for row in own.itertuples())
+        each = ", ".join(f"{row.surface_title} {wording.factor(row.ratio)}" for row in tuples(own))
         told.append(f"on {device} {each}")
     if not held:
         return None
@@ -86,7 +87,7 @@ def _lu_over_control(evidence: Evidence) -> Verdict | None:
     ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
     if ratios.empty:
         return None
-    each = ", ".join(f"{r.surface_title} {wording.factor(r.ratio)}" for r in ratios.itertuples())
+    each = ", ".join(f"{r.surface_title} {wording.factor(r.ratio)}" for r in tuples(ratios))
     return verdict(always(ratios), f"{each}{lost(ratios)}; the paper: 1.37×")
 
 

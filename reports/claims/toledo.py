@@ -33,6 +33,7 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
+from reports.reading.tuples import tuples
 
 PAPER = "toledo2007"
 _WRONG = ("wrong_rays", "grazing_wrong_rays")
@@ -93,7 +94,7 @@ def _bisection_is_free_of_them(evidence: Evidence) -> Verdict | None:
 
 def _slow_near_grazing(evidence: Evidence) -> Verdict | None:
     near, far = [], []
-    for row in evidence.rows(picks.ONE_RAY, picks.TORUS).itertuples():
+    for row in tuples(evidence.rows(picks.ONE_RAY, picks.TORUS)):
         arrays = evidence.arrays(row)
         if arrays is not None and arrays.evaluations is not None and arrays.grazing.any():
             spent = arrays.evaluations > 0
@@ -142,12 +143,8 @@ def _planes(name: Literal["NEAR", "FAR"]) -> Judge:
     other = {"NEAR": "FAR", "FAR": "NEAR"}[name]
 
     def decide(evidence: Evidence) -> Verdict | None:
-        rows = evidence.finished[
-            (evidence.finished["method"] == "analytic")
-            & (evidence.finished["precision"] == "float32")
-            & (evidence.finished["origin"] == evidence.origin)
-            & evidence.finished["surface"].isin(picks.TORUS)
-        ]
+        rows = evidence.finished("analytic", picks.TORUS)
+        rows = rows[(rows["precision"] == "float32") & (rows["origin"] == evidence.origin)]
         knobs = pd.DataFrame([_knobs(text) for text in rows["parameters"]], index=rows.index)
         if rows.empty or name not in knobs:
             return None
@@ -177,7 +174,7 @@ def _cubics(evidence: Evidence) -> Verdict | None:
     rows = rows[rows["degree"] == 3]
     if rows.empty:
         return None
-    each = ", ".join(f"{row.surface_title} {wording.count(row.wrong_rays)}" for row in rows.itertuples())
+    each = ", ".join(f"{row.surface_title} {wording.count(row.wrong_rays)}" for row in tuples(rows))
     bad, of = counted(rows, "wrong_rays"), counted(rows, "accuracy_rays")
     if bad is None or not of:
         return verdict(None, f"wrong rays away from silhouettes: {each}")

@@ -93,9 +93,8 @@ def by_proxy(evidence: Evidence) -> pd.DataFrame:
     hit.
     """
     rows = evidence.rows(picks.NEWTON_3, picks.TORUS).iloc[:0]
-    found = evidence.finished
-    found = found[found["method"].eq(picks.NEWTON_3.method) & found["stage"].eq("raster")]
-    found = found[found["surface"].isin(picks.TORUS) & found["view_set"].eq("angles")]
+    found = evidence.finished(picks.NEWTON_3.method, picks.TORUS)
+    found = found[found["stage"].eq("raster") & found["view_set"].eq("angles")]
     if found["proxy"].nunique() < 2:
         return rows.assign(waste=pd.Series(dtype=float))
     found = derive.on_first_device(found)
@@ -125,8 +124,7 @@ def by_normal(evidence: Evidence) -> pd.DataFrame:
 
     There is no row unless there are several normals.
     """
-    found = evidence.finished
-    found = found[found["method"].eq(picks.NEWTON_3.method) & found["surface"].isin(picks.TORUS)]
+    found = evidence.finished(picks.NEWTON_3.method, picks.TORUS)
     found = found[found["proxy"].eq("box")].dropna(subset=["median_ms", "normal"])
     if found["normal"].nunique() < 2:
         return found.iloc[:0]

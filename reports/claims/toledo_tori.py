@@ -25,6 +25,7 @@ from reports.claims.model import (
     verdict,
 )
 from reports.claims.toledo import PAPER
+from reports.reading.tuples import tuples
 
 CONFIG = "toledo-fig6.toml"
 TABLE_1 = "toledo-table1.toml"
@@ -170,7 +171,7 @@ def detail(evidence: Evidence) -> pd.DataFrame:
 
     Returns what `rounds.over` returns.
     """
-    rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
+    rows = evidence.finished(picks.STURM.method)
     rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
     whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))
     return evidence.over(whole, seen, ["comparison", "device"])
@@ -181,7 +182,7 @@ def _detail_pays(evidence: Evidence) -> Verdict | None:
     if ratios.empty:
         return None
     ratios = ratios.assign(tori=ratios["instances"].astype(int)).sort_values("tori")
-    each = ", ".join(f"{row.tori:,} tori {wording.factor(row.ratio)}" for row in ratios.itertuples())
+    each = ", ".join(f"{row.tori:,} tori {wording.factor(row.ratio)}" for row in tuples(ratios))
     worst = wording.number(ratios["pixel_error_max"].max())
     figure = f"18 halvings over those for {DETAIL:g} pixels: {each}; largest error {worst} pixels{lost(ratios)}"
     afar = ratios[ratios["tori"] == ratios["tori"].max()]

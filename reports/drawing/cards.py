@@ -15,6 +15,7 @@ from reports.analysis.choices import ERRORS, Choice
 from reports.content import Panel, Picture
 from reports.drawing import images
 from reports.reading.arrays import Arrays, Shelf
+from reports.reading.tuples import tuples
 
 NAMED = 4  # methods of one kind that a short card names
 SHORT = 110  # characters of a formula on a short card
@@ -29,9 +30,9 @@ def winner(rows: pd.DataFrame, choice: Choice | None) -> Any | None:
     wrong rays.
     """
     if choice is not None and not wording.absent(choice.pictured.arrays):
-        return next(rows.loc[[choice.pictured.Index]].itertuples())
+        return next(tuples(rows.loc[[choice.pictured.Index]]))
     drawn = rows[(rows["status"] == CellStatus.OK) & rows["answers"].astype(bool) & rows["arrays"].notna()]
-    return next(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").head(1).itertuples(), None)
+    return next(tuples(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").head(1)), None)
 
 
 def long_card(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf, told: pd.DataFrame) -> Panel | None:
@@ -119,7 +120,7 @@ def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
     right = right.sort_values("relative_error_max", kind="stable").head(3)
     ranked = [
         (f"{i}.", choices.written(row, rows), wording.error(row.relative_error_max))
-        for i, row in enumerate(right.itertuples(), 1)
+        for i, row in enumerate(tuples(right), 1)
     ]
     return [("", "most exact, all rays right", "error over radius"), *ranked] if ranked else []
 

@@ -20,6 +20,7 @@ from reports.drawing import style, tables
 from reports.drawing.canvas import NARROW, RC, ErrorAxis, label_decades, series, svg
 from reports.drawing.placing import place, text_size
 from reports.drawing.style import Mark
+from reports.reading.tuples import tuples
 
 TALL, LOW, MANY = 4.9, 3.9, 16  # inches: of a drawing, and of one of more rows, which leave less of the page
 LETTER = 7.0  # points
@@ -228,8 +229,8 @@ def _labels(panel: _Panel, rows: pd.DataFrame, focus: str, lines: Sequence[NDArr
     ordered = ordered.sort_values(["late", "beaten", "wrong", "median_ms"], kind="stable")
     marks = panel.points(ordered["x"], ordered["mrays_per_s"])
     ordered = ordered[["label", "wrong_rays", "right", "late", "beaten"]].head(MOST_NAMED)
-    told = [_label(row) for row in ordered.itertuples()]
-    bold = [not row.beaten or not row.late for row in ordered.itertuples()]
+    told = [_label(row) for row in tuples(ordered)]
+    bold = [not row.beaten or not row.late for row in tuples(ordered)]
     sizes = [text_size(text, LETTER, heavy) for text, heavy in zip(told, bold, strict=True)]
     area = (2.0, 2.0, panel.size[0] - 2.0, panel.size[1] - 2.0)
     at, others = marks[: len(ordered)], marks[len(ordered) :]
@@ -256,10 +257,10 @@ def _caption(shown: pd.DataFrame) -> str:
     """Say how to read the figure, and what the largest gain over the baseline in it is."""
     baseline = tables.baseline(shown)
     told = shown[["device", "precision", "label", "speedup", "error_max", "floor_ms", "floor_bound", *ties.COLUMNS]]
-    over = {(row.device, row.precision): row for row in derive.baseline_rows(shown).itertuples()}
+    over = {(row.device, row.precision): row for row in tuples(derive.baseline_rows(shown))}
     gains = [
         gaining
-        for gaining in told[told["speedup"] > 1.0].sort_values("speedup", ascending=False).itertuples()
+        for gaining in tuples(told[told["speedup"] > 1.0].sort_values("speedup", ascending=False))
         if (beaten := over.get((gaining.device, gaining.precision))) is not None and ties.is_slower(beaten, gaining)
     ]
     row = next((gaining for gaining in gains if not gaining.floor_bound), None)

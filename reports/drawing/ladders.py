@@ -17,6 +17,7 @@ from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, Key, line_of, series, svg
 from reports.drawing.style import Mark
 from reports.reading.run import Facts
+from reports.reading.tuples import tuples
 
 DODGE = 0.5  # the share of the step between rungs over which marks of one rung are spread, so that all are seen
 
@@ -83,8 +84,6 @@ def _undecided(rows: pd.DataFrame) -> str:
     for precision, own in rows.groupby("precision"):
         if not own["decided"].any():
             sums = own.groupby("variant", sort=False)[["undecidable_right", "undecidable"]].sum()
-            counts = wording.listed(
-                [f"{r.Index} {r.undecidable_right:,} of {r.undecidable:,}" for r in sums.itertuples()]
-            )
+            counts = wording.listed([f"{r.Index} {r.undecidable_right:,} of {r.undecidable:,}" for r in tuples(sums)])
             told += f" In {precision} none of these rays can be decided; answered as the oracle does: {counts}."
     return told

@@ -22,6 +22,7 @@ from reports.content import Figure
 from reports.drawing import placing, style
 from reports.drawing.canvas import NARROW, RC, ErrorAxis, series, svg
 from reports.drawing.style import Mark
+from reports.reading.tuples import tuples
 
 TEXT = 7.0  # points
 RADIUS = 3.0  # of a mark, points
@@ -252,7 +253,7 @@ def _names(
     places = placing.place(at, sizes, area, radius=RADIUS + 0.5, marks=every, lines=lines)
     left: dict[str, str] = {}
     whole = np.asarray([scales.width, scales.height]) * 72
-    for row, place, heavy, (_, height) in zip(named.itertuples(), places, bold, sizes, strict=True):
+    for row, place, heavy, (_, height) in zip(tuples(named), places, bold, sizes, strict=True):
         if place is None:
             left[str(row.method)] = str(row.method_label)
             continue

@@ -14,6 +14,7 @@ from reports.analysis.choices import Choice
 from reports.content import Matrix, Square
 from reports.drawing import style
 from reports.drawing.shades import GOOD, WRONG
+from reports.reading.tuples import tuples
 
 MOST = 8  # surfaces that are columns of a page
 BEST, FASTER, SLOWER, ALIKE = GOOD, GOOD, "#f0a45d", "#e6e6e6"
@@ -84,8 +85,8 @@ def taken(one: Choice, method: str) -> Any:
     exact = derive.within(own, choices.ERRORS[0])
     right = exact if len(exact) else own[derive.all_right(own)]
     if len(right):
-        return next(right.loc[[ties.best(right).Index]].itertuples())
-    return next(own.sort_values("wrong_rays", kind="stable").itertuples(), None)
+        return next(tuples(right.loc[[ties.best(right).Index]]))
+    return next(tuples(own.sort_values("wrong_rays", kind="stable")), None)
 
 
 def noted(one: Choice, row: Any) -> str:

@@ -13,6 +13,7 @@ from reports.analysis import derive
 from reports.analysis.scene_names import scene_title
 from reports.content import Column, Table
 from reports.drawing import tables
+from reports.reading.tuples import tuples
 
 OVERHEAD_LIMIT = 0.05  # the share of the time above which an overhead is flagged
 KNOWN = ("front", "floor-bound", "drifts", "noisy")  # flags of the table beside a plot; the other one has all
@@ -80,7 +81,7 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         (Column("what to know", stretch=3), "flags"),
     ]
     body = []
-    for row in kept[_TOLD].itertuples():
+    for row in tuples(kept[_TOLD]):
         told = {
             **row._asdict(),
             "spread": spread(row),
@@ -139,7 +140,7 @@ def results_table(rows: pd.DataFrame) -> Table:
     rows = rows.sort_values(["device", "precision", "median_ms"], kind="stable")
     kinds = derive.kinds(rows)
     body = []
-    for row in rows[[*_TOLD, *kinds, "peak_share", "compile_ms", "clock"]].itertuples():
+    for row in tuples(rows[[*_TOLD, *kinds, "peak_share", "compile_ms", "clock"]]):
         speed = (row.median_ms, spread(row), row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))
         told = (*errors, row.grazing_wrong_rays, row.drowned_wrong_rays, row.evaluations_mean, row.peak_share)
@@ -191,7 +192,7 @@ def units_table(rows: pd.DataFrame) -> Table | None:
     known = [(unit, title, show) for unit, title, show in _UNITS if rows[f"{unit}_max"].notna().any()]
     body = []
     figures_of = [f"{unit}_{quantile}" for unit, _, _ in known for quantile in ("max", "p99")]
-    for row in rows[["device", "precision", "label", *figures_of]].itertuples():
+    for row in tuples(rows[["device", "precision", "label", *figures_of]]):
         figures = (getattr(row, name) for name in figures_of)
         body.append((row.device, row.precision, row.label, *figures))
     return Table(
@@ -221,7 +222,7 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     """Return the title and the caption of `results_table`."""
     checked = ""
     judged = rows.loc[rows["accuracy_rays"].notna(), ["accuracy_rays", "grazing", "grazing_margin", "undecided"]]
-    for row in judged.head(1).itertuples():
+    for row in tuples(judged.head(1)):
         checked = (
             f" Errors and counts of wrong rays are of {wording.plural(row.accuracy_rays, 'ray')}, of which "
             f"{wording.count(row.grazing)} pass another answer within {wording.error(row.grazing_margin)} of the "

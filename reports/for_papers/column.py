@@ -23,6 +23,7 @@ from reports.analysis.fits import Power
 from reports.drawing import placing, shades, style
 from reports.drawing.canvas import RC, ErrorAxis, label_decades
 from reports.drawing.style import Mark
+from reports.reading.tuples import tuples
 
 WIDTH = 3.33  # inches, of a column
 SIZE = 8.0  # points, of every text
@@ -180,7 +181,7 @@ def _name(axes: Axes, told: Mapping[Any, tuple[str, placing.Place]], rows: pd.Da
 
 def _floor(rows: pd.DataFrame) -> float:
     """Return the Mrays/s from which on a row of this scene is floor-bound; infinity where none is known."""
-    row = next(rows[["mrays_per_s", "median_ms", "floor_ms"]].head(1).itertuples())
+    row = next(tuples(rows[["mrays_per_s", "median_ms", "floor_ms"]].head(1)))
     return row.mrays_per_s * row.median_ms / (derive.FLOOR_FACTOR * row.floor_ms) if row.floor_ms > 0 else math.inf
 
 

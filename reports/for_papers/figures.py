@@ -22,6 +22,7 @@ from reports.for_papers import column, stability
 from reports.for_papers.model import Plate, distinct, exact, sentence, slug
 from reports.material import Material
 from reports.parts import growth
+from reports.reading.tuples import tuples
 
 _TITLED = ["surface_title", "view", "size", "samples_per_pixel", "precision", "device"]
 _SCENE = ["view", "size", "samples_per_pixel", "stage", "scene"]
@@ -40,7 +41,7 @@ def scene_slugs(rows: pd.DataFrame) -> dict[str, str]:
         str(row.comparison): slug(
             str(row.surface), *(str(v) for n in differ[row.surface] if not wording.absent(v := getattr(row, n)))
         )
-        for row in scenes.itertuples()
+        for row in tuples(scenes)
     }
     shared = Counter(named.values())
     runs = dict(zip(scenes["comparison"].astype(str), scenes["run"].astype(str), strict=True))
@@ -56,7 +57,7 @@ def groups(rows: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
     """Yield for each scene, device and precision its file's name, what it is in words, and its rows."""
     slugs, more = scene_slugs(rows), several(rows, "device", "precision")
     for (comparison, _, _), own in rows.groupby(derive.GROUP, sort=False):
-        first = next(own[_TITLED].head(1).itertuples())
+        first = next(tuples(own[_TITLED].head(1)))
         name = slug(slugs[str(comparison)], *(str(getattr(first, column)) for column in more))
         place = f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.precision} on {first.device}"
         yield name, place, own
@@ -144,7 +145,7 @@ def _pictures(material: Material) -> Iterator[Plate]:
     scale = material.error_scale if len(rows) else (-8, -4)
     more = several(rows, "precision")
     drawn: set[str] = set()
-    for row in rows.itertuples():
+    for row in tuples(rows):
         arrays = material.shelf.get(row)
         if arrays is None:
             continue

@@ -15,6 +15,7 @@ from reports.for_papers import stability
 from reports.for_papers.figures import groups, several
 from reports.for_papers.model import Tabled, distinct, exact, sentence, slug
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 
 def tables(material: Material) -> list[Tabled]:
@@ -40,7 +41,7 @@ def _speedup(material: Material, rows: pd.DataFrame) -> str:
 
 def _focused(material: Material, rows: Any) -> frozenset[int]:
     """Return the numbers of the rows that are in focus."""
-    named = enumerate(rows.itertuples()) if material.focus else ()
+    named = enumerate(tuples(rows)) if material.focus else ()
     return frozenset(i for i, row in named if material.focus in (row.method, row.variant))
 
 
@@ -49,7 +50,7 @@ def _results(material: Material) -> Iterator[Tabled]:
     for name, place, rows in groups(derive.contenders(material.listed)):
         body = [
             (row.label, row.median_ms, row.speedup, row.error_max, row.error_p99, row.wrong_rays)
-            for row in rows.itertuples()
+            for row in tuples(rows)
         ]
         columns = (
             Column("method"),
@@ -88,7 +89,7 @@ def _winners(material: Material) -> Iterator[Tabled]:
             row.error_max,
             "; ".join(labels[variant] for variant in row.tied) or wording.NONE,
         )
-        for row in rows.itertuples()
+        for row in tuples(rows)
     ]
     columns = (
         Column("surface"),
@@ -118,7 +119,7 @@ def _speedups(material: Material) -> Iterator[Tabled]:
     named, more = scene_names(material.listed), several(rows, "device", "precision")
     for (device, precision), own in rows.groupby(["device", "precision"], sort=False):
         scenes = [scene for scene in named if scene in set(own["comparison"])]
-        of = {(row.comparison, row.method): row.speedup for row in own.itertuples()}
+        of = {(row.comparison, row.method): row.speedup for row in tuples(own)}
         methods = own.groupby("method")["speedup"].median().sort_values(ascending=False).index
         labels = [_label_of(own, method) for method in methods]
         told = sentence(

@@ -15,6 +15,7 @@ from reports.content import Block, Column, Gallery, Matrix, Section, Square, Tab
 from reports.drawing import levels, shades
 from reports.material import Material
 from reports.reading.arrays import Shelf
+from reports.reading.tuples import tuples
 
 ORDER = 28
 MOST_PANELS = 6
@@ -74,7 +75,7 @@ def _table(rows: pd.DataFrame) -> Table:
     named = scene_names(rows)
     bad = "invalid" in derive.kinds(rows)
     body = []
-    for row in rows.itertuples():
+    for row in tuples(rows):
         missed = row.misses + row.grazing_misses
         missed += 0 if wording.absent(row.drowned_misses) else row.drowned_misses
         counts = (missed, row.beam_only, row.false_hits, row.wrong_root)
@@ -107,7 +108,7 @@ def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
     largest = rows.sort_values(["size", "samples_per_pixel"], ascending=False, kind="stable")
     kept = rows.loc[sorted(largest.drop_duplicates("surface").index)].head(MOST_PANELS)
     panels = []
-    for row in kept.itertuples():
+    for row in tuples(kept):
         arrays = shelf.get(row)
         if arrays is not None and arrays.level is not None and arrays.status is not None:
             panels.append(levels.panel(row, arrays))
@@ -141,7 +142,7 @@ def _prepass(frame: pd.DataFrame) -> list[Section]:
             row.wrong_rays,
             row.wrong_rays_behind,
         )
-        for row in both.itertuples()
+        for row in tuples(both)
     ]
     columns = (
         Column("surface", stretch=1),
@@ -180,7 +181,7 @@ def _pays(both: pd.DataFrame) -> Matrix | None:
         return None
     named = scene_names(rows)
     labels = dict(zip(rows["variant"], rows["label"], strict=True))
-    squares = {(r.comparison, r.variant): _square(r) for r in rows.itertuples()}
+    squares = {(r.comparison, r.variant): _square(r) for r in tuples(rows)}
     missing = shades.silent("", "not timed in both ways")
     body = [
         (named[str(scene)], tuple(squares.get((scene, variant), missing) for variant in labels))

@@ -25,6 +25,7 @@ from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, se
 from reports.drawing.style import Mark
 from reports.material import Material
 from reports.reading.arrays import Shelf
+from reports.reading.tuples import tuples
 
 ORDER = 40
 TITLE = "Error against condition"
@@ -79,7 +80,7 @@ def sections(material: Material) -> list[Section]:
     found: list[tuple[list[Cloud], pd.Series]] = []
     for _, rows in frame.groupby("surface", sort=False):
         drawn = shown.of_surface(rows, VARIANTS)
-        clouds = [cloud for row in drawn.itertuples() if (cloud := _cloud(material.shelf, row)) is not None]
+        clouds = [cloud for row in tuples(drawn) if (cloud := _cloud(material.shelf, row)) is not None]
         if clouds:
             found.append((clouds, drawn.iloc[0]))
     if not found:

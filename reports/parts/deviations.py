@@ -14,6 +14,7 @@ from reports.analysis import derive, rounds
 from reports.content import Column, Section, Table, Text
 from reports.labels import method_label
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 67
 LEADS = True
@@ -132,7 +133,7 @@ def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> It
     if common.empty:
         return
     left, right = left.loc[common], right.loc[common]
-    pairs = zip(*(rows[rounds.COLUMNS].itertuples() for rows in (left, right)), strict=True)
+    pairs = zip(*(tuples(rows[rounds.COLUMNS]) for rows in (left, right)), strict=True)
     timed = (rounds.ratio(b, a) for a, b in pairs)
     times = [ratio.median for ratio in timed if ratio is not None]
     spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)

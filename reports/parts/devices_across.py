@@ -25,6 +25,8 @@ SHOWN = 8  # swaps and answers that differ, of the page; details have all
 def sections(material: Material) -> list[Section]:
     """Make the section; [] unless two devices or more have a speed-up or an answer of the same variant and scene."""
     frame = material.listed
+    if frame["device"].nunique() < 2:
+        return []
     rows, answered = across.comparable(frame), across.answers(frame)
     devices = across.devices_of(rows)
     means = across.mean_speedups(rows) if len(devices) > 1 else {}

@@ -17,6 +17,7 @@ from reports.analysis.scene_names import scene_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades, tables
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 30
 TOP = 30.0  # the factor that has the brightest colour
@@ -47,7 +48,7 @@ def _means(right: pd.DataFrame) -> dict[str, dict[str, tuple[float, int]]]:
     read = list(dict.fromkeys([*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS]))
     rows = right[read].drop_duplicates([*_KERNEL, "device"]).sort_values("median_ms", kind="stable")
     for _, own in rows.groupby(_KERNEL, sort=False):
-        first, *rest = own.itertuples()
+        first, *rest = tuples(own)
         ratios = {str(row.device): rounds.times_over(row, first) for row in rest}
         ratios = {device: ratio for device, ratio in ratios.items() if not math.isnan(ratio)}
         for device, ratio in ({str(first.device): 1.0} | ratios).items() if ratios else ():

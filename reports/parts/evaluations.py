@@ -18,6 +18,7 @@ from reports.drawing import images, style
 from reports.drawing.canvas import RC, svg
 from reports.material import Material
 from reports.reading.arrays import Arrays
+from reports.reading.tuples import tuples
 
 ORDER = 27
 PAGED = 2  # a run with more surfaces has its maps in the details
@@ -43,7 +44,7 @@ def sections(material: Material) -> list[Section]:
     A page shows the fastest variants of at most PAGED surfaces; all maps are in the details.
     """
     cells: list[tuple[Any, Arrays]] = []
-    for row in shown.in_evaluation_maps(material.frame).itertuples():
+    for row in tuples(shown.in_evaluation_maps(material.frame)):
         arrays = material.shelf.get(row)
         if arrays is not None and arrays.evaluations is not None and arrays.evaluations.any():
             cells.append((row, arrays))

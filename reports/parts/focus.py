@@ -11,6 +11,7 @@ from reports.analysis.choices import ERRORS, Choice
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import standings
 from reports.material import Material
+from reports.reading.tuples import tuples
 from reports.sentences import answer
 
 ORDER = 2
@@ -101,7 +102,7 @@ def _line(one: Choice, focus: str, baseline: str) -> tuple[Any, ...]:
     right, exact = one.rows[derive.all_right(one.rows)], derive.within(one.rows, ERRORS[0])
     faster = exact if own.Index in exact.index else right  # what is less exact does not beat it
     faster = faster[faster["method"] != own.method]
-    fastest = faster.drop_duplicates("method").itertuples()
+    fastest = tuples(faster.drop_duplicates("method"))
     beating = [(row, rounds.times_over(own, row)) for row in fastest if ties.is_slower(own, row)]
     told = [
         f"{answer.inline(row)} {'' if wording.absent(times) else wording.factor(times)}".strip()

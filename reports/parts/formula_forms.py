@@ -21,6 +21,7 @@ from reports.content import Block, Column, Figure, Matrix, Section, Square, Tabl
 from reports.drawing import line_labels, shades, style
 from reports.drawing.canvas import LINE, NARROW, RC, svg
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 22
 SIDES = (0.25, 0.03125, 0.00390625)  # of the boxes in the table, over the domain's radius
@@ -78,9 +79,9 @@ def _cost(rows: pd.DataFrame) -> Matrix:
     body: list[tuple[str, tuple[Square, ...]]] = []
     for _, forms in rows.groupby("base", sort=False):
         title = str(forms["surface_title"].iloc[0]).removesuffix(f", {forms['form'].iloc[0]}")
-        printed = _by_name(forms[forms["form"] == PRINTED].itertuples())
+        printed = _by_name(tuples(forms[forms["form"] == PRINTED]))
         for form, own in forms.groupby("form", sort=False):
-            found = _by_name(own.itertuples())
+            found = _by_name(tuples(own))
             squares = (_square(found[v], printed.get(v)) if v in found else missing for v in variants)
             body.append((f"{title}, {form}", tuple(squares)))
     return Matrix(
@@ -267,9 +268,9 @@ def _by_variant(
     body: list[tuple[Any, ...]] = []
     for _, forms in rows.groupby("base", sort=False):
         title = str(forms["surface_title"].iloc[0]).removesuffix(f", {forms['form'].iloc[0]}")
-        printed = _by_name(forms[forms["form"] == PRINTED].itertuples())
+        printed = _by_name(tuples(forms[forms["form"] == PRINTED]))
         for form, own in forms.groupby("form", sort=False):
-            found = _by_name(own.itertuples())
+            found = _by_name(tuples(own))
             cells = [told(found[v], printed.get(v)) if v in found else (None, None) for v in variants]
             body.append((title, form, *(value for pair in cells for value in pair)))
     named = (Column("surface"), Column("form"))

@@ -114,7 +114,10 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
     """
     if axis.needs not in frame:
         return frame.head(0), {}
-    rows = frame.loc[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna(), _READ]
+    timed = (frame["status"] == CellStatus.OK) & frame["median_ms"].notna()
+    if axis.of(frame.loc[timed, [axis.needs]]).nunique() < FEWEST:
+        return frame.head(0), {}
+    rows = frame.loc[timed, _READ]
     rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
     rows = rows[rows["x"] > 0]
     above_floor = _over_floor(rows, axis)
@@ -157,12 +160,14 @@ def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
     if rows.empty:
         return []
     rows = rows.loc[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST, [*by, "label", "x", "ms"]]
+    lines = rows.groupby(by, sort=False).ngroup().to_numpy()  # -1 of a row that lacks one of `by`
+    x, ms = rows["x"].to_numpy(), rows["ms"].to_numpy()
+    order = np.lexsort((x, lines))[np.count_nonzero(lines < 0) :]
+    starts = np.flatnonzero(np.diff(lines[order], prepend=-1))
+    names = rows[[*by, "label"]].take(order[starts]).itertuples(index=False, name=None)
     found = []
-    for (*place, variant), own in rows.groupby(by, sort=False):
-        own = own.sort_values("x", kind="stable")
-        fit = power_law(own["x"], own["ms"])
-        told = str(variant), str(own["label"].iloc[0])
-        found.append(Curve(tuple(place), *told, own["x"].to_numpy(), own["ms"].to_numpy(), fit))
+    for (*place, variant, label), at in zip(names, np.split(order, starts[1:]), strict=False):
+        found.append(Curve(tuple(place), str(variant), str(label), x[at], ms[at], power_law(x[at], ms[at])))
     return found
 
 

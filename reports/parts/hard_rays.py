@@ -14,6 +14,7 @@ from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import ladders, shades, tables
 from reports.material import Material
 from reports.reading.run import Facts
+from reports.reading.tuples import tuples
 
 ORDER = 45
 NOTHING_DECIDED = "nothing decided"
@@ -68,7 +69,7 @@ def sections(material: Material) -> list[Section]:
 def _refused(families: pd.DataFrame) -> dict[tuple[str, str, str], str]:
     """Return why a variant was not run on a family, by family, precision and variant."""
     rows = families[families["status"] != CellStatus.OK]
-    return {(r.family, r.precision, r.variant): str(r.reason) for r in rows.itertuples()}
+    return {(r.family, r.precision, r.variant): str(r.reason) for r in tuples(rows)}
 
 
 def _agreement(rungs: pd.DataFrame, devices: Mapping[str, pd.DataFrame]) -> str:
@@ -121,7 +122,7 @@ def _matrix(
     methods = best.groupby(["variant", "method", "label", "method_label"], sort=False)["held_share"].sum()
     methods = methods.sort_values(ascending=False, kind="stable")
     families = best.groupby("family", sort=False)["held_share"].mean().sort_values(ascending=False, kind="stable")
-    by_place = {(r.family, r.variant): r for r in best.itertuples()}
+    by_place = {(r.family, r.variant): r for r in tuples(best)}
     rows = []
     for family in map(str, families.index):
         squares = [
@@ -160,7 +161,7 @@ def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Tab
     """Make a line for each family and variant, from the verdicts of one device and precision."""
     kinds = derive.kinds(verdicts)
     body = []
-    for row in verdicts.itertuples():
+    for row in tuples(verdicts):
         right = (row.share_right, *(getattr(row, kind) for kind in kinds))
         known = (row.decided, *(right if row.decided else (None,) * len(right)), row.worst_ratio)
         body.append(
@@ -237,7 +238,7 @@ def summary_table(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
         for (variant, precision), own in breaks.verdicts(rows).groupby(["label", "precision"], sort=False):
             judged = own[own["decided"] > 0]
             broken = judged[judged["breaks_at"].notna()]
-            each = [f"{facts[r.family].title} {wording.level(r.breaks_at)}" for r in broken.itertuples()]
+            each = [f"{facts[r.family].title} {wording.level(r.breaks_at)}" for r in tuples(broken)]
             more = f" and {len(each) - MOST_TOLD} more" if len(each) > MOST_TOLD else ""
             told = ", ".join(each[:MOST_TOLD]) + more
             held = judged[judged["breaks_at"].isna()]

@@ -13,6 +13,7 @@ from reports.analysis import derive, rounds
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 29
 ERRORS = (1.0, 0.1, 0.01, 0.001)  # the image errors compared at, in pixel footprints
@@ -149,7 +150,7 @@ def _each(rows: pd.DataFrame) -> Table | None:
             r.wrong_rays,
             r.other_instance,
         )
-        for r in rows.itertuples()
+        for r in tuples(rows)
     ]
     return Table(
         (
@@ -233,7 +234,7 @@ def _saved(rows: pd.DataFrame) -> Matrix:
 
 def _paired(rows: pd.DataFrame) -> Iterator[tuple[Any, pd.Series]]:
     """Yield each row with a tolerance in pixels, and the same without it."""
-    for row in rows[rows["pixel_tolerance"] > 0.0].itertuples():
+    for row in tuples(rows[rows["pixel_tolerance"] > 0.0]):
         own = rows[
             (rows["comparison"] == row.comparison)
             & (rows["device"] == row.device)

@@ -15,6 +15,7 @@ from reports.analysis.scene_names import scene_names, scene_title
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades, standings, tables
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 32
 TITLE = "Variants compared round by round"
@@ -109,9 +110,9 @@ def _squares(rows: pd.DataFrame) -> dict[str, tuple[float, Square]]:
     found: dict[str, tuple[float, Square]] = {}
     for method, own in rows.groupby("method", sort=False):
         sound = own[derive.all_right(own)]
-        row = next((sound if len(sound) else own).head(1).itertuples())
+        row = next(tuples((sound if len(sound) else own).head(1)))
         if row.method == best.method:
-            row = next(own[own["key"] == best.key].itertuples())
+            row = next(tuples(own[own["key"] == best.key]))
         found[str(method)] = _square(row, best, sound=len(sound) > 0)
     return found
 
@@ -167,7 +168,7 @@ def _table(rows: pd.DataFrame) -> Table | None:
             continue
         best = ties.best(right)
         labels, sound_keys = dict(zip(group["key"], group["label"], strict=True)), set(right["key"])
-        for row in group.itertuples():
+        for row in tuples(group):
             if row.key != best.key and (ratio := rounds.ratio(row, best)):
                 sound = row.key in sound_keys
                 figures = _figures(ratio) if sound else (None, None, None, None, ratio.pairs)

@@ -190,6 +190,8 @@ def _further(
 ) -> tuple[list[Block], int]:
     """Draw at most `room` of the further scenes and devices of a surface; return the plots and what room is left."""
     made: list[Block] = []
+    if not room:
+        return made, room
     own = shown.on_pages(rows)
     marks = material.method_marks
     for j, (scene, of) in enumerate(rows.groupby("comparison", sort=False)):

@@ -14,6 +14,7 @@ from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.drawing import stages
 from reports.material import Material
 from reports.reading.arrays import Shelf
+from reports.reading.tuples import tuples
 
 ORDER = 29
 MOST_PANELS = 6
@@ -47,9 +48,9 @@ def shares(row: Any) -> dict[str, float]:
 
 def _table(rows: pd.DataFrame) -> Table:
     """Make a line for each row with the share of each stage."""
-    named, names = scene_names(rows), list(dict.fromkeys(name for row in rows.itertuples() for name in shares(row)))
+    named, names = scene_names(rows), list(dict.fromkeys(name for row in tuples(rows) for name in shares(row)))
     body = []
-    for row in rows.itertuples():
+    for row in tuples(rows):
         told = shares(row)
         each = (told.get(name) for name in names)
         body.append((named[str(row.comparison)], row.device, row.precision, row.label, *each, row.evaluations_mean))
@@ -70,7 +71,7 @@ def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
     largest = rows.sort_values(["size", "samples_per_pixel"], ascending=False, kind="stable")
     kept = rows.loc[sorted(largest.drop_duplicates("surface").index)].head(MOST_PANELS)
     panels = []
-    for row in kept.itertuples():
+    for row in tuples(kept):
         arrays = shelf.get(row)
         if arrays is not None and arrays.stage is not None:
             panels.append(stages.panel(row, arrays, list(shares(row))))

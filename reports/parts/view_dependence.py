@@ -13,6 +13,7 @@ from reports.analysis.viewstats import ViewSet
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import viewplots
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 25
 MOST_SETS = 6  # a run with more sets of views shows one for each surface, at most so many
@@ -176,7 +177,7 @@ def wrong_rays_table(of: ViewSet) -> Table | None:
     apart = ("grazing_wrong_rays", "drowned_wrong_rays")
     body = [
         (r.label, r.view, r.wrong_rays, *(getattr(r, name) for name in (*kinds, *apart)))
-        for r in rows.head(PRINTED_WRONG).itertuples()
+        for r in tuples(rows.head(PRINTED_WRONG))
     ]
     titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong", "drowned wrong")
     cut = wording.first_of(len(body), len(rows))

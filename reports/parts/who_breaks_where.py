@@ -17,6 +17,7 @@ from reports.analysis import surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 9  # before the winners: what is right comes before what is fast
 MANY = 30  # surfaces, from which on a run without the gallery has the section too
@@ -196,7 +197,7 @@ def _classes(judged: pd.DataFrame, place: str) -> Table:
     share, body = judged["share"], []
     counted = pd.DataFrame({"taken": share.notna(), "wrong": (share > 0).fillna(False).astype(bool)})
     counts = counted.groupby(judged["variant"], sort=False).sum()
-    lines = sorted(counts.itertuples(), key=lambda line: (line.wrong / max(line.taken, 1), -line.taken))
+    lines = sorted(tuples(counts), key=lambda line: (line.wrong / max(line.taken, 1), -line.taken))
     places = judged.groupby("variant", sort=False).indices
     for line in lines[:MOST_LINES]:  # of some thousand variants only these are looked at one by one
         own = judged.take(places[line.Index])
@@ -226,7 +227,7 @@ def _told(taken: pd.DataFrame, wrong: pd.DataFrame) -> str:
     told = []
     for group, own in wrong.groupby("group", sort=False):
         of = int((taken["group"] == group).sum())
-        worst = next(own.sort_values("share", ascending=False, kind="stable").head(1).itertuples())
+        worst = next(tuples(own.sort_values("share", ascending=False, kind="stable").head(1)))
         what = f"{worst.surface_title} {wording.share(worst.share)}, {WORDS[_main_kind(worst)]}"
         told.append((len(own) / of, f"{str(group).replace('_', ' ')} {len(own)} of {of} ({what})"))
     return "; ".join(text for _, text in sorted(told, key=lambda item: -item[0]))
@@ -236,7 +237,7 @@ def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
     """Make a line for each surface and a column for each variant, with the marks of KEY."""
     columns, titles = _columns(judged), _titles(judged)
     missing = shades.silent("", "not run")
-    squares = {(row.surface, row.variant): _square(row) for row in judged.itertuples()}
+    squares = {(row.surface, row.variant): _square(row) for row in tuples(judged)}
     body: list[tuple[str, tuple[Square, ...]]] = []
     for group, grouped in judged.groupby("group", sort=False):
         if judged["group"].nunique() > 1:
@@ -260,7 +261,7 @@ def _refusals(rows: pd.DataFrame) -> Table | None:
     refused = rows[rows["status"] == CellStatus.SKIPPED]
     if refused.empty:
         return None
-    reasons = [_shared(str(row.reason), str(row.surface)) for row in refused.itertuples()]
+    reasons = [_shared(str(row.reason), str(row.surface)) for row in tuples(refused)]
     refused = refused.assign(reason=reasons).drop_duplicates(["surface", "method", "reason"])
     body = []
     for (_, reason), own in refused.groupby(["method", "reason"], sort=True):

@@ -15,6 +15,7 @@ from reports.analysis.scene_names import rays_checked, scene_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades, standings, style, tables, trades_tables
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 10
 ONE_BY_ONE = 20  # a run with more groups has a table that counts the winners too
@@ -87,7 +88,7 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
         rows = rows[rows["comparison"].isin(list(scenes_of))]
     named, safest = (
         scenes_of or scene_names(frame),
-        {(r.comparison, r.device, r.precision): r for r in leading.itertuples()},
+        {(r.comparison, r.device, r.precision): r for r in tuples(leading)},
     )
     groups = {key: own for key, own in rows.groupby(derive.GROUP)}
     timed = set(rows["comparison"])
@@ -128,7 +129,7 @@ def _square(own: pd.DataFrame | None, won: Any, material: Material, labels: dict
     if own is None:
         return Square(wording.NONE, note="not timed")
     if won is None:
-        fewest = next(own.sort_values("wrong_rays", kind="stable").itertuples())
+        fewest = next(tuples(own.sort_values("wrong_rays", kind="stable")))
         if wording.absent(fewest.wrong_rays):
             return shades.silent("not judged", "no answers were checked")
         told = f"{fewest.label}: {int(fewest.wrong_rays):,} wrong rays of {wording.count(fewest.accuracy_rays)}"
@@ -159,12 +160,12 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     """
     rows = derive.contenders(frame, ["variant", "label", "method", "method_label", "baseline"])
     fastest = ties.fastest(frame)
-    safest = {(r.comparison, r.device, r.precision): r for r in leading.itertuples()}
+    safest = {(r.comparison, r.device, r.precision): r for r in tuples(leading)}
     body: list[tuple[Any, ...]] = []
     named, labels = scene_names(frame), dict(zip(rows["variant"], rows["label"], strict=True))
     fastest = fastest.assign(planned=fastest["comparison"].map({name: i for i, name in enumerate(named)}))
     shown = fastest.sort_values(["planned", "precision", "device"], kind="stable").head(tables.ROW_LIMIT)
-    for row in shown.itertuples():
+    for row in tuples(shown):
         safe = safest.get((row.comparison, row.device, row.precision))
         instead = ("none", None, None) if safe is None else (safe.label, safe.median_ms, _tied(safe, labels))
         if safe is not None and safe.variant == row.variant:

@@ -15,6 +15,7 @@ from harness.contract import FirsthitError
 from harness.results import pictures_file
 from harness.results.sealed import problem
 from reports.reading.run import Unreadable
+from reports.reading.tuples import tuples
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +74,7 @@ class Shelf:
         stored = rows[rows["arrays"].notna()]
         if reason := pictures_file.refusal([int(rays) for rays in stored["accuracy_rays"].dropna()]):
             raise FirsthitError(reason, exit_code=3)
-        return [(row, arrays) for row in rows.itertuples() if (arrays := self.get(row)) is not None]
+        return [(row, arrays) for row in tuples(rows) if (arrays := self.get(row)) is not None]
 
     def get(self, row: Any) -> Arrays | None:
         """Return the arrays of a row of the frame.

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 from array import array as numbers_of
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -138,6 +139,7 @@ class _Near:
     def __init__(self, pieces: Sequence[Piece], schema: pa.Schema) -> None:
         self._pieces, self._schema = pieces, schema
         self._held: dict[tuple[int, int], pa.Table] = {}
+        self._files: dict[int, pq.ParquetFile] = {}
 
     def take(self, which: NDArray[np.int32], rows: NDArray[np.int64]) -> pa.Table:
         """Return the rows at these places, in their order."""
@@ -164,7 +166,9 @@ class _Near:
     def _group(self, number: int, part: Part, group: int) -> pa.Table:
         if (number, group) not in self._held:
             with damage():
-                found = part.file.read_row_group(group, columns=self._schema.names)
+                if number not in self._files:
+                    self._files[number] = _opened(part)
+                found = self._files[number].read_row_group(group, columns=self._schema.names)
                 self._held[number, group] = found.select(self._schema.names).cast(self._schema)
         return self._held[number, group]
 
@@ -185,12 +189,18 @@ def _read(part: Part, name: str) -> pa.ChunkedArray:
         raise Refused(part, f"its column {name} is damaged: {problem(error)}") from None
 
 
+def _opened(part: Part, coded: Sequence[str] = ()) -> pq.ParquetFile:
+    """Open the file of a part again, since threads cannot share one; texts of the columns `coded` stay coded."""
+    told = part.file.metadata  # reading it takes most of the time of opening a file
+    return pq.ParquetFile(part.path, metadata=told, read_dictionary=coded, page_checksum_verification=True)
+
+
 def _held(part: Part, field: Field) -> pa.ChunkedArray:
     """Do what `_read` does. Raises OSError or ValueError."""
     name = field.name
     with damage():
         coded = [name] if name in _CODED else []
-        file = pq.ParquetFile(part.path, read_dictionary=coded, page_checksum_verification=True)
+        file = _opened(part, coded)
         if name not in file.schema_arrow.names:
             return pa.chunked_array([pa.nulls(part.ends[-1], _TYPES[name])])  # of an older version
         found = file.read(columns=[name]).column(0)
@@ -245,10 +255,16 @@ def compact(array: pa.Array) -> Any:
     return made
 
 
-def frame(found: Columns, stated: dict[str, str], unread: Collection[str] = ()) -> pd.DataFrame:
+def frame(
+    found: Columns,
+    stated: Mapping[str, str],
+    unread: Collection[str] = (),
+    known: Mapping[str, Sequence[str]] = MappingProxyType({}),
+) -> pd.DataFrame:
     """Make a frame of the columns of SCHEMA but for `unread`; `stated` are those that a plan states.
 
-    Where any is unread, lists of numbers are arrays of the standard library.
+    Where any is unread, lists of numbers are arrays of the standard library. `known` are texts of each row that the
+    caller holds, by their columns: where the row's are the same, no second copy is kept.
 
     Raises Refused where a part holds what its rows cannot hold.
     """
@@ -261,5 +277,8 @@ def frame(found: Columns, stated: dict[str, str], unread: Collection[str] = ()) 
         else:
             column = found.column(field.name)
             told = compact(column) if unread and field.kind == "reals" else values(column, field)
+            if field.name in known:
+                pairs = zip(known[field.name], told, strict=True)
+                told[:] = [own if own == text else text for own, text in pairs]
             made[field.name] = pd.Series(told, dtype=told.dtype, copy=False)  # texts stay objects
     return pd.DataFrame(made)  # columns of a kind in one block of memory

@@ -21,6 +21,8 @@ from reports.reading.columns import BATCH, Columns
 
 ACCURACY = frozenset(field.name for field in SCHEMA if field.path[0] == "accuracy")
 
+ALIKE = (1e-4, 1e9)  # between these Arrow writes a number as Python does, but for whole ones
+PLAIN = r"^([ -&(-*,./0-9:-<>?A-Z\[\]-`a-z{-~][ -\[\]-~]*)?$"  # a text that CSV holds as it is
 _DTYPES: dict[Kind, str] = {
     "text": "object",
     "real": "float64",
@@ -85,13 +87,26 @@ def write(
 
 def _flat(table: pa.Table, schema: pa.Schema) -> pa.Table:
     """Return a table as CSV holds it, with the columns of `schema`."""
-    lists = [None if value is None else json.dumps(value) for value in table.column("samples_ms").to_pylist()]
-    table = table.set_column(table.schema.get_field_index("samples_ms"), "samples_ms", pa.array(lists, pa.string()))
+    samples = _json(table.column("samples_ms").combine_chunks())
+    table = table.set_column(table.schema.get_field_index("samples_ms"), "samples_ms", samples)
     table = table.select(schema.names)
     for place, field in enumerate(table.schema):
         if field.type == pa.string():
             table = table.set_column(place, field.name, _no_formulas(table.column(place)))
     return table
+
+
+def _json(lists: pa.Array) -> pa.Array:
+    """Write lists of numbers as json.dumps does."""
+    ends = pc.min_max(lists.values).as_py()
+    if ends["min"] is None or not ALIKE[0] <= ends["min"] <= ends["max"] < ALIKE[1]:
+        told = [None if value is None else json.dumps(value) for value in lists.to_pylist()]
+        return pa.array(told, pa.string())
+    numbers = lists.values.cast(pa.string())
+    whole = pc.binary_join_element_wise(numbers, ".0", "")
+    texts = pa.ListArray.from_arrays(lists.offsets, pc.if_else(pc.match_substring(numbers, "."), numbers, whole))
+    written = pc.binary_join_element_wise("[", pc.binary_join(texts, ", "), "]", "")
+    return pc.if_else(lists.is_valid(), written, pa.scalar(None, pa.string()))
 
 
 def without_formulas(frame: pd.DataFrame) -> pd.DataFrame:
@@ -104,5 +119,7 @@ def without_formulas(frame: pd.DataFrame) -> pd.DataFrame:
 def _no_formulas(texts: pa.ChunkedArray) -> pa.Array:
     """Return a column of texts as CSV holds it. Each text is looked at once, since most repeat."""
     coded = texts.combine_chunks().dictionary_encode()
+    if pc.all(pc.match_substring_regex(coded.dictionary, PLAIN), min_count=0).as_py():
+        return texts
     told = pa.array([None if text is None else cell(text) for text in coded.dictionary.to_pylist()], pa.string())
     return pa.DictionaryArray.from_arrays(coded.indices, told).dictionary_decode()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import gc
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,6 +15,7 @@ import pyarrow as pa
 from harness.contract import BASELINE, FirsthitError, suggestion
 from harness.results import archive, plan_file, study_file
 from harness.results.compaction import FAMILY as FAMILY_COLUMN
+from harness.results.garbage import uncollected
 from harness.results.parts import Part, damage
 from harness.results.schema import FAMILY, RUNG, flattener
 from harness.results.sealed import problem
@@ -85,21 +85,6 @@ def _answering(frame: pd.DataFrame, name: str, option: str) -> str:
     return name
 
 
-@contextlib.contextmanager
-def _uncollected() -> Iterator[None]:
-    """Switch Python's search for cyclic garbage off within the block.
-
-    JSON has no cycles, and the search takes a fifth of the time of 100,000 rows.
-    """
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()
-
-
 @dataclass
 class _Found:
     """Gather what the cells that a plan names say, in the plan's order."""
@@ -110,6 +95,7 @@ class _Found:
     rungs: list[tuple[Any, ...]] = field(default_factory=list)
     unreadable: list[Unreadable] = field(default_factory=list)
     not_run: list[str] = field(default_factory=list)
+    keys: list[str] = field(default_factory=list)  # of the views
     places: list[tuple[int, int]] = field(default_factory=list)  # of each view: -1, or its part; and its place there
 
     def view(self, row: Row) -> None:
@@ -129,7 +115,7 @@ class _Found:
         return Columns((own, *pieces), (places[:, 0] + 1).astype(np.int32), places[:, 1])
 
 
-@_uncollected()
+@uncollected()
 def load_one(folder: Path, plan: Plan, unread: Collection[str] = ()) -> Run:
     """Read what the cells that `plan` names say, without the columns `unread`.
 
@@ -154,11 +140,13 @@ def _load_one(store: Store, plan: Plan, unread: Collection[str]) -> Run:
     for (key, slot), part, place in zip(plan.slots.items(), which.tolist(), places.tolist(), strict=True):
         if part >= 0 and key not in own and not parts[part].problem and place not in ladders[part]:
             found.places.append((part, place))
+            found.keys.append(key)
             continue
         try:
             row = row_of(store.text(key), key)
             if row.get("family") is None:
                 found.view(row)
+                found.keys.append(key)
             else:
                 ladder = _ladder(row, plan.facts)
                 found.families.append(_FAMILY(row | {"run": plan.name}))
@@ -176,7 +164,8 @@ def _load_one(store: Store, plan: Plan, unread: Collection[str]) -> Run:
         damaged = f" ({len(broken)} are unreadable: {broken[0].problem})" if broken else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
     rows = found.columns(parts)
-    views = columns.frame(rows, {"run": plan.name, "baseline": plan.baseline}, unread)
+    known = {"key": found.keys, "slot": [plan.slots[key] for key in found.keys]}
+    views = columns.frame(rows, {"run": plan.name, "baseline": plan.baseline}, unread, known)
     return Run(
         folder,
         plan,

@@ -11,7 +11,8 @@ import pandas as pd
 from reports import wording
 from reports.analysis import choices, derive, tradeoffs
 from reports.analysis.choices import ERRORS, Choice
-from reports.analysis.scene_names import picture_size, rays_checked
+from reports.analysis.scene_names import picture_sizes, rays_checked
+from reports.reading.tuples import tuples
 
 NAMED = 8  # a run with more surfaces counts them
 MOST = 4  # methods that are counted one by one
@@ -27,7 +28,7 @@ PROMISES = {  # what the claims of harness.contract come to
 def lead(found: Sequence[Choice]) -> str:
     """Say in one sentence which method to take for which surface, and what it costs; `found` has at least one."""
     rows = found[0].rows
-    device, sizes = rows["device"].iloc[0], {picture_size(row) for one in found for row in one.rows.itertuples()}
+    device, sizes = rows["device"].iloc[0], {size for one in found for size in picture_sizes(one.rows)}
     where = f"On {device}" + (f", for {sizes.pop()} pixels" if len(sizes) == 1 else "")
     where += f", of {len(found)} surfaces" if len(found) > NAMED else ""
     if all(one.rows["method"].nunique() < 2 for one in found):
@@ -86,7 +87,7 @@ def _range(pairs: Sequence[tuple[Choice, Any]]) -> str:
 
 def _span(found: Sequence[Choice]) -> str:
     """Write the times of all timed rows."""
-    return _range([(one, row) for one in found for row in one.rows.itertuples()])
+    return _range([(one, row) for one in found for row in tuples(one.rows)])
 
 
 def exact(found: Sequence[Choice]) -> str:

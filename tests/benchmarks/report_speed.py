@@ -2,8 +2,11 @@
 
 `python -m tests.benchmarks.report_speed 100000` makes up a run of so many rows, of 100 surfaces, in a folder that is
 thrown away, and reports it; `python -m tests.benchmarks.report_speed runs/quick runs/papers` reports these. Printed are
-the seconds that storing the rows took, with making them up, and those of the report. Each report is made in a process
-of its own. Nothing here fails for being slow.
+the seconds that making up the rows and their sealed texts took, which in a real run is the work of its cells, those of
+storing them and those of the report; the seconds of a core that storing and report took, which others on the machine
+change less; and the report's memory. Each report is made in a process of its own. Of several sizes the growth of the
+seconds of a core is told: a line by least squares of the relative deviations, and the exponent between the two largest
+sizes, which is 1 where time grows with the rows. Nothing here fails for being slow.
 """
 
 from __future__ import annotations
@@ -15,7 +18,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
 
@@ -32,8 +36,8 @@ PRECISIONS = ("float32", "float64")
 PICTURED = 10  # settings whose rows have arrays, of a run with more rows than files are kept for
 
 
-def make(folder: Path, rows: int) -> Path:
-    """Write a run of `rows` rows into `folder`, with arrays, and return the folder.
+def make(folder: Path, rows: int) -> tuple[float, float]:
+    """Write a run of `rows` rows, with arrays; return the seconds that making them up took, and those of a core.
 
     The rows are of SURFACES surfaces, two precisions, one device, and as many settings of the same five variants as
     that takes.
@@ -46,84 +50,113 @@ def make(folder: Path, rows: int) -> Path:
     for (variant, surface, precision), model in models.items():
         if model["arrays"]:
             np.savez(folder / f"{variant} {surface} {precision}.npz", **arrays(model))
-    made = _rows(models, surfaces, rows, settings)
-    cells = list(_parts(folder, made) if rows > compaction.MOST else _files(folder, made))
-    (folder / "plan.json").write_text(json.dumps(synthetic_run.plan(cells)))
-    return folder
+    made = _Timed(_rows(models, surfaces, rows, settings))
+    store = _parts if rows > compaction.MOST else _files
+    plan = json.dumps(synthetic_run.plan(list(store(folder, made))))
+    (folder / "plan.json").write_bytes(sealed.with_seal(f"{{\n{plan[1:]}"))
+    return made.seconds, made.of_core
 
 
-def _rows(
-    models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: int
-) -> Iterator[tuple[Row, str]]:
-    """Make up each row, with the name of the model that it is like."""
+@dataclass(frozen=True)
+class _Made:
+    """Hold a row that was made up, the sealed bytes of its file, and the name of the model that it is like."""
+
+    row: Row
+    text: bytes
+    model: str
+
+
+class _Timed(Iterator[_Made]):
+    """Give what an iterator gives, and measure the seconds that it takes, and those of a core."""
+
+    def __init__(self, made: Iterator[_Made]) -> None:
+        self.seconds = self.of_core = 0.0
+        self._made = made
+
+    def __next__(self) -> _Made:
+        since, of_core = time.perf_counter(), time.process_time()
+        try:
+            return next(self._made)
+        finally:
+            self.seconds += time.perf_counter() - since
+            self.of_core += time.process_time() - of_core
+
+
+def _rows(models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: int) -> Iterator[_Made]:
+    """Make up each row; of a run with more rows than files are kept for the first PICTURED settings have arrays."""
+    pictured = PICTURED if rows > compaction.MOST else settings
     for i in range(min(SURFACES, max(1, rows // (len(PRECISIONS) * len(synthetic_run.VARIANTS))))):
         like = surfaces[i % len(surfaces)]
         for (variant, surface, precision), model in models.items():
-            for setting in range(settings) if surface == like else ():
-                yield _again(model, f"{like}_{i}", setting), f"{variant} {surface} {precision}"
+            if surface == like:
+                name = f"{variant} {surface} {precision}"
+                yield from _settings(model, f"{like}_{i}", range(settings), pictured, name)
 
 
-def _files(folder: Path, rows: Iterable[tuple[Row, str]]) -> Iterator[Row]:
+def _settings(model: Row, surface: str, settings: range, pictured: int, name: str) -> Iterator[_Made]:
+    """Make up rows like `model`, of another surface and each setting; those of the first `pictured` have arrays."""
+    shared = model | {"surface": surface, "surface_title": surface.replace("_", " ").title()}
+    shared |= {"comparison": f"{surface} front 256x256x1 compute", "time": model["time"] | {"session": surface}}
+    for own in ("key", "slot", "variant", "parameters", "arrays"):
+        del shared[own]
+    text = json.dumps(shared)[1:]
+    for setting in settings:
+        variant = str(model["variant"])
+        if setting:
+            variant = f"{variant.removesuffix(']')}{',' if '[' in variant else '['}STEPS={setting}]"
+        slot = f"{variant} {surface} front 256x256x1 {model['precision']} compute {model['device']}"
+        key = digest(slot)
+        named: Row = {"key": key, "slot": slot, "variant": variant, "parameters": {"STEPS": setting}}
+        named["arrays"] = f"arrays/{key}.npz" if model["arrays"] and setting < pictured else None
+        yield _Made(shared | named, sealed.with_seal(f"{{\n{json.dumps(named)[1:-1]}, {text}"), name)
+
+
+def _files(folder: Path, rows: Iterable[_Made]) -> Iterator[Row]:
     """Store rows in files of their own, and yield what a plan says of each."""
-    for row, model in rows:
-        (folder / "cells" / f"{row['key']}.json").write_text(json.dumps(row))
-        _link(folder, row, model)
-        yield {name: row[name] for name in ("slot", "key", "family")}
+    for made in rows:
+        (folder / "cells" / f"{made.row['key']}.json").write_bytes(made.text)
+        _link(folder, made)
+        yield {name: made.row[name] for name in ("slot", "key", "family")}
 
 
-def _parts(folder: Path, rows: Iterable[tuple[Row, str]]) -> Iterator[Row]:
-    """Store rows in Parquet parts, and yield what a plan says of each; only the first PICTURED settings have arrays."""
+def _parts(folder: Path, rows: Iterator[_Made]) -> Iterator[Row]:
+    """Store rows in Parquet parts, and yield what a plan says of each."""
     names: list[Row] = []
 
-    def stored(some: Iterable[tuple[Row, str]]) -> Iterator[tuple[Row, bytes]]:
-        for row, model in some:
-            if row["parameters"]["STEPS"] < PICTURED:
-                _link(folder, row, model)
-            else:
-                row["arrays"] = None
-            names.append({name: row[name] for name in ("slot", "key", "family")})
-            yield row, sealed.with_seal("{\n" + json.dumps(row)[1:])
+    def stored(some: Iterable[_Made]) -> Iterator[tuple[Row, bytes]]:
+        for made in some:
+            _link(folder, made)
+            names.append({name: made.row[name] for name in ("slot", "key", "family")})
+            yield made.row, made.text
 
-    waiting = iter(rows)
-    for first in waiting:
-        compaction.write_part(folder, stored(chain([first], islice(waiting, compaction.ROWS - 1))))
+    for first in rows:
+        compaction.write_part(folder, stored(chain([first], islice(rows, compaction.ROWS - 1))))
     return iter(names)
 
 
-def _link(folder: Path, row: Row, model: str) -> None:
+def _link(folder: Path, made: _Made) -> None:
     """Give a row the arrays of its model."""
-    if row["arrays"]:
-        os.link(folder / f"{model}.npz", folder / row["arrays"])
+    if made.row["arrays"]:
+        os.link(folder / f"{made.model}.npz", folder / made.row["arrays"])
 
 
-def _again(model: Row, surface: str, setting: int) -> Row:
-    """Return a cell like `model`, of another surface and setting of its variant."""
-    variant = str(model["variant"])
-    if setting:
-        variant = f"{variant.removesuffix(']')}{',' if '[' in variant else '['}STEPS={setting}]"
-    slot = f"{variant} {surface} front 256x256x1 {model['precision']} compute {model['device']}"
-    key = digest(slot)
-    named = {"surface": surface, "surface_title": surface.replace("_", " ").title(), "slot": slot, "key": key}
-    named |= {"variant": variant, "parameters": {"STEPS": setting}}
-    named |= {"comparison": f"{surface} front 256x256x1 compute"}
-    return {
-        **model,
-        **named,
-        "time": {**model["time"], "session": surface},
-        "arrays": model["arrays"] and f"arrays/{key}.npz",
-    }
-
-
-def measure(run: Path, output: Path, *options: str) -> tuple[float, float]:
-    """Report a run in a process of its own; return its seconds, with those of starting, and its peak memory in GB."""
-    before = time.perf_counter()
+def measure(run: Path, output: Path, *options: str) -> tuple[float, float, float]:
+    """Report a run in a process of its own; return its seconds, with those of starting, those of a core, and its GB."""
+    before, of_cores = time.perf_counter(), _of_children()
     told = subprocess.run(
         [sys.executable, "-m", "tests.benchmarks.report_speed", "--one", str(run), str(output), *options],
         capture_output=True,
         text=True,
         check=True,
     )
-    return time.perf_counter() - before, float(told.stdout.split()[-1]) * 1024 / 1e9
+    seconds = time.perf_counter() - before
+    return seconds, _of_children() - of_cores, float(told.stdout.split()[-1]) * 1024 / 1e9
+
+
+def _of_children() -> float:
+    """Return the seconds of a core that processes took which this one started and which have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _one(run: str, output: str, *options: str) -> None:
@@ -136,18 +169,40 @@ def _one(run: str, output: str, *options: str) -> None:
 
 def _main(arguments: list[str]) -> None:
     """Measure what the command line names: numbers of rows, and folders of runs."""
-    print(f"{'run':24} {'stored, s':>10} {'report, s':>10} {'ms a row':>9} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}")
+    print(
+        f"{'run':15} {'made':>7} {'stored':>7} {'report':>7} {'of a core':>10} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}"
+    )
+    spent: dict[int, float] = {}
     for argument in arguments or ["1000"]:
         with tempfile.TemporaryDirectory() as scratch:
-            since = time.perf_counter()
-            run = make(Path(scratch, "run"), int(argument)) if argument.isdigit() else Path(argument)
-            stored = f"{time.perf_counter() - since:.1f}" if argument.isdigit() else "-"
+            run, told, before = Path(argument), f"{'-':>7} {'-':>7}", 0.0
+            if argument.isdigit():
+                run, since, of_core = Path(scratch, "run"), time.perf_counter(), time.process_time()
+                made, made_of_core = make(run, int(argument))
+                told = f"{made:7.1f} {time.perf_counter() - since - made:7.1f}"
+                before = time.process_time() - of_core - made_of_core
             output = Path(scratch, "made")
-            seconds, memory = measure(run, output)
+            seconds, of_cores, memory = measure(run, output)
+            of_cores += before
             pdf, html = (output.joinpath(f"report.{form}").stat().st_size / 1e6 for form in ("pdf", "html"))
-        each = f"{1e3 * seconds / int(argument):.3f}" if argument.isdigit() else "-"
-        name = f"{argument} rows" if argument.isdigit() else run.name
-        print(f"{name:24} {stored:>10} {seconds:10.1f} {each:>9} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
+        name = run.name
+        if argument.isdigit():
+            name, spent[int(argument)] = f"{int(argument):,} rows", of_cores
+        print(f"{name:15} {told} {seconds:7.1f} {of_cores:10.1f} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
+    if len(spent) > 1:
+        print(growth(spent))
+
+
+def growth(spent: Mapping[int, float]) -> str:
+    """Tell how the seconds of a core of runs, by their rows, grow; there are at least two."""
+    rows, seconds = (np.array(values, float) for values in zip(*sorted(spent.items()), strict=True))
+    each, fixed = np.polyfit(rows, seconds, 1, w=1.0 / seconds)
+    off = np.abs(np.polyval([each, fixed], rows) / seconds - 1.0).max()
+    exponent = np.log(seconds[-1] / seconds[-2]) / np.log(rows[-1] / rows[-2])
+    return (
+        f"stored and reported, of a core: {fixed:.0f} s and {1e3 * each:.3f} ms a row, within {off:.0%} of each; "
+        f"from {rows[-2]:,.0f} to {rows[-1]:,.0f} rows it grows as the rows to the power of {exponent:.2f}"
+    )
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from reports.content import Block, Column, Table, Text
 from reports.drawing import tables
 from reports.material import Material
 from reports.reading.run import Unreadable
+from reports.reading.tuples import tuples
 
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log is in the cell's file
 SHORT_LIMIT = 180  # characters of the reason of a group of cells
@@ -125,7 +126,7 @@ def _every(rows: pd.DataFrame) -> Table:
     rows = rows.sort_values(["status", "reason", "device"], kind="stable")
     body = [
         (row.status, wording.excerpt(row.reason, REASON_LIMIT) or None, row.device, row.precision, row.place, row.label)
-        for row in rows.head(tables.ROW_LIMIT).itertuples()
+        for row in tuples(rows.head(tables.ROW_LIMIT))
     ]
     return Table(
         (

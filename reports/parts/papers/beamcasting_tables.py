@@ -15,6 +15,7 @@ from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.drawing import levels
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 40
 
@@ -55,7 +56,7 @@ def _tables(material: Material) -> list[Section]:
     spent = evidence.rows(picks.UNIFORM).set_index(derive.GROUP)["evaluations_mean"].to_dict()
     paper = published.table("beamcasting_tables_fps")
     body: list[tuple[Any, ...]] = []
-    for row in ratios.sort_values(["size", "samples_per_pixel"], kind="stable").itertuples():
+    for row in tuples(ratios.sort_values(["size", "samples_per_pixel"], kind="stable")):
         where = {
             "surface": picks.BEAM_SURFACES[row.surface],
             "image_size": row.size,
@@ -153,7 +154,7 @@ def _divergence(material: Material) -> list[Section]:
     """
     config = "beamcasting-divergence.toml"
     evidence = material.evidence.of(config)
-    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, picks.BEAM_SURFACES).itertuples()]
+    rows = [(pick, row) for pick in _SETTINGS for row in tuples(evidence.rows(pick, picks.BEAM_SURFACES))]
     rows = [(pick, row) for pick, row in rows if row.run == run_of(config) and idle_lanes.levels_of(row)]
     if not rows:
         return []

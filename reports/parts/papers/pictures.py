@@ -21,6 +21,7 @@ from reports.content import Block, Column, Gallery, Panel, Picture, Section, Tab
 from reports.drawing import images, plots
 from reports.material import Material
 from reports.reading.arrays import Arrays
+from reports.reading.tuples import tuples
 
 ORDER = 30
 ACROSS = 6  # pictures on a line of a page
@@ -161,7 +162,7 @@ def _counts(rows: pd.DataFrame, title: str) -> Table:
     kinds = derive.kinds(rows)
     views = rows["view"].nunique() > 1
     body = []
-    for row in rows.itertuples():
+    for row in tuples(rows):
         counts = tuple(getattr(row, kind) for kind in kinds)
         place = (row.surface_title, row.view) if views else (row.surface_title,)
         apart = (row.grazing_wrong_rays, row.drowned_wrong_rays)

@@ -16,6 +16,7 @@ from reports.claims.szente_studies import bounds, condition
 from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 20
 SEEN_1_2 = (
@@ -319,7 +320,7 @@ def _where(rows: pd.DataFrame) -> str:
 
 def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:
     """Return the first device's row of each surface, in the paper's order."""
-    rows = {row.surface: row for row in reversed(list(ratios.itertuples()))}
+    rows = {row.surface: row for row in reversed(list(tuples(ratios)))}
     return [rows[name] for name in surfaces if name in rows]
 
 

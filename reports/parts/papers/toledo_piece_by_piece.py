@@ -13,6 +13,7 @@ from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
 from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
+from reports.reading.tuples import tuples
 
 ORDER = 13
 SEEN = (
@@ -81,7 +82,7 @@ def _proxies(rows: pd.DataFrame) -> Table:
     """Make a line for each angle and proxy."""
     body = [
         (row.view.removeprefix("angle ") + "°", row.proxy, row.fragments, row.waste, row.median_ms, row.wrong_rays)
-        for row in rows.itertuples()
+        for row in tuples(rows)
     ]
     return Table(
         (

@@ -1,0 +1,67 @@
+"""What makes reports of very many rows fast gives the same as what is plain."""
+
+from __future__ import annotations
+
+import json
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.compute as pc
+import pytest
+
+from harness import escaping
+from harness.results import schema
+from reports.reading import export
+from reports.reading.tuples import tuples
+from tests.benchmarks import report_speed
+
+
+@pytest.mark.parametrize(
+    "lists",
+    [
+        [[1.0, 2.5], None, [], [export.ALIKE[0], 12.0, 999_999_999.0, 0.1 + 0.2, 123456.789012345, 1 / 3]],
+        [[export.ALIKE[1], 1e12], None],
+        [[9e-5], [2.5e-300, 1e22]],
+        [[-1.0, 0.0]],
+        [[], None],
+        [],
+    ],
+)
+def test_lists_of_numbers_are_written_as_json(lists):
+    told = [None if one is None else json.dumps(one) for one in lists]
+    array = pa.array(lists, pa.list_(pa.float64()))
+    assert export._json(array).to_pylist() == told
+    assert export._json(array.slice(1)).to_pylist() == told[1:]
+
+
+def test_what_is_taken_for_a_plain_text_stays_as_it_is_in_csv():
+    signs = [chr(code) for code in range(0x180)] + ["\u202e", "＝", "−"]
+    texts = [text for sign in signs for text in (sign, f"{sign}1", f"{sign}a", f"a{sign}", f"a{sign}b", f"'{sign}a")]
+    plain = pc.match_substring_regex(pa.array(texts), export.PLAIN).to_pylist()
+    assert 300 < sum(plain) < len(texts) / 2
+    assert all(escaping.cell(text) == text for text, is_plain in zip(texts, plain, strict=True) if is_plain)
+
+
+def test_named_tuples_are_those_of_pandas():
+    frame = pd.DataFrame(
+        {"key": ["a", None], "size": pd.array([1, None], "Int64"), "ms": [1.5, float("nan")], "a b": [True, False]},
+        index=[7, 3],
+    )
+    frame["times"] = pd.Series([[1.0], None], frame.index, dtype=object)
+    for own, theirs in zip(tuples(frame), frame.itertuples(), strict=True):
+        assert repr(tuple(own)) == repr(tuple(theirs)) and own._fields == theirs._fields
+        assert list(map(type, own)) == list(map(type, theirs))
+    assert type(next(tuples(frame))) is type(next(tuples(frame.head(1)))) and not list(tuples(frame.head(0)))
+
+
+def test_json_of_a_column_tells_values_apart():
+    (field,) = (field for field in schema.SCHEMA if field.name == "parameters")
+    flatten = schema.flattener([field])
+    values = [{"A": 1}, {"A": 1.0}, {"A": True}, {"A": -0.0}, {"A": 0.0}, {"B": 2, "A": [None]}, {"A": 1}]
+    assert [flatten({"parameters": value}) for value in values] == [(json.dumps(v, sort_keys=True),) for v in values]
+
+
+def test_the_benchmark_tells_how_time_grows():
+    told = report_speed.growth({1_000: 12.0, 10_000: 30.0, 100_000: 210.0})
+    assert told.startswith("stored and reported, of a core: 10 s and 2.000 ms a row, within 0% of each; ")
+    assert told.endswith("from 10,000 to 100,000 rows it grows as the rows to the power of 0.85")
