@@ -76,6 +76,7 @@ def test_tiny_leading_coefficients_change_no_answer(pair, place):
 CLUSTERED = ("x^4-202.388*x^3+15346.8*x^2-516775*x+6.52025e6", "box:0,-1,-1:100,1,1")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(
     ("method", "where"),
     [pytest.param(m, d) for (m,), d in rotation([(m,) for m in METHODS], DOUBLE)],

@@ -153,6 +153,7 @@ def test_a_shared_beams_evaluations_are_counted_once(device):
         assert (levels == first).all()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("knobs", [{}, {"GROUPED": 0}, {"REMAP": 3}, {"REMAP": 3, "GROUPED": 0}])
 @pytest.mark.parametrize("descent", [0, 1])
 def test_where_a_work_item_lies_changes_no_bit(device, knobs, descent):

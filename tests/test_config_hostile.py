@@ -204,6 +204,7 @@ def large(tmp_path):
     return tmp_path / "large.toml"
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("words", [["run"], ["plan"], ["bless", "--reason", "r"], ["gate", "--baseline", "FILE"]])
 def test_a_large_plan_says_its_size_at_once_and_asks(tmp_path, monkeypatch, capsys, words):
     for room in (run, firsthit, __import__("harness.gate.checked", fromlist=["checked"])):

@@ -48,7 +48,7 @@ def pairs():
     ]
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize(
     ("method", "degree", "device_name", "precision"),
     [(*pair, *place) for pair, place in rotation(pairs(), PLACES)],

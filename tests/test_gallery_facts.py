@@ -170,6 +170,7 @@ def turns():
     return [(name, METHODS[i % 2], devices[i // 2 % len(devices)]) for i, name in enumerate(chosen) if devices]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("name", "method", "device_name"), turns())
 def test_a_small_picture_is_as_the_oracle_says(name, method, device_name):
     """The oracle decides every ray; a method that claims no missed root misses none."""

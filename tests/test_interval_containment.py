@@ -184,6 +184,7 @@ def usable(surface: Surface, device: Device, precision: Precision) -> None:
         pytest.skip(reason)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("surface", FAMILIES, ids=lambda s: s.name)
 def test_range_holds_the_value_at_points_of_boxes(surface: Surface, device: Device, precision: Precision) -> None:

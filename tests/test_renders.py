@@ -53,6 +53,7 @@ def _agrees(name, method, precision, knobs):
     return close and np.mean(verdicts.wrong != Wrong.RIGHT) <= MOST_WRONG
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", surfaces.names())
 def test_a_surface_is_drawn_as_the_oracle_sees_it(name):
     _, _, truth = _case(name)
@@ -67,6 +68,7 @@ NEVER_MISSES = [name for name, method in CASTERS.items() if "no_missed_root" in 
 FINDS_TOUCHES = [name for name, method in CASTERS.items() if "finds_touch" in method.claims]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("family", hardcases.names())
 @pytest.mark.parametrize("method", NEVER_MISSES)
 def test_a_method_that_claims_it_misses_no_root_of_any_hard_case(method, family):

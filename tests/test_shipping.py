@@ -116,6 +116,7 @@ def test_the_example_draws_what_the_harness_casts(tmp_path, capsys, kind, method
     assert not found["normals"][~hit].any()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize(("method", "place"), rotation(RAYS, PLACES))
 def test_every_method_that_casts_rays_answers_as_its_checked_program(method, place):
     device, precision = opened(place[0]), place[1]
@@ -131,6 +132,7 @@ def test_every_method_that_casts_rays_answers_as_its_checked_program(method, pla
         assert np.array_equal(values, getattr(answers[1], name), equal_nan=name == "t"), name
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("language", ["glsl", "cl"])
 @pytest.mark.parametrize("method", RAYS)
 def test_no_function_is_unused_and_each_is_word_for_word_that_of_the_checked_program(method, language):

@@ -88,6 +88,7 @@ def test_bisection_halves_an_interval_of_f_itself(device):
     assert (_counts(device, "eft_yuksel", "sphere", **printed | {"EVAL": 0}) == 3).all()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["torus", "barth_decic"])
 @pytest.mark.parametrize("setting", ["EFT + EVAL", "Bernstein"])
 def test_each_printed_part_of_the_fit_alone_gives_the_picture(name, setting):
