@@ -51,11 +51,16 @@ bernstein on the same rays.
     16-ball       9.49   33.0       94.1        5.45    3.5             9.9              1.0
 
 In the geometric mean it is 2.4 times as fast as bernstein and 3.1 times as fast as eft_yuksel. The table is of an older
-kernel, and the quiet run has not been repeated. Two changes have been made since, each measured by interleaved runs on
-a busy machine: bounds are looked up in coarser tables (0.94 times the time in the mean of the nine), and stages divide
-less and use fused multiply-adds (0.96 times the processor time: calyx 0.93, decic 0.98 to 1.01). What is known of the
-errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on
-these surfaces in this view.
+kernel, on a processor with AVX-512. Two changes have been made since, each measured by interleaved runs on a busy
+machine: bounds are looked up in coarser tables (0.94 times the time in the mean of the nine), and stages divide less
+and use fused multiply-adds (0.96 times the processor time: calyx 0.93, decic 0.98 to 1.01).
+
+On a processor without AVX-512, on which each method takes two to five times as long, the same config gave at acff067
+2.4 times the speed of bernstein in the geometric mean (1.6 clebsch to 3.6 16-ball) and 3.2 times that of eft_yuksel
+(1.3 clebsch to 11 16-ball); 20 of its 45 cells were told to be noisy. No clear ray of tiles was wrong.
+
+What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
+LEANS were chosen on these surfaces in this view.
 Other devices, and frames of other sizes (configs/tiles.toml), have not been measured on a quiet machine.
 
 **What was tried** opencl:intel, processor time at 1024x1024, float32, mostly single runs on a busy machine:
