@@ -259,12 +259,17 @@ def rows(runs: Path) -> dict[str, bytes]:
 
 
 def facts(runs: Path) -> dict[str, Any]:
-    """Return what rows below a folder of runs say that no clock decides, by their paths there, with their arrays."""
+    """Return what rows below a folder of runs say that no clock decides, by their paths there, with their arrays.
+
+    In which order work items put boxes into a queue changes from launch to launch, and with it how many lanes are idle.
+    """
     found: dict[str, Any] = {}
     for name in rows(runs):
         row = json.loads((runs / name).read_text(encoding="utf-8"))
         clockless = {key: value for key, value in row.items() if key not in ("time", "build", "seconds", "environment")}
         found[name] = {key: value for key, value in clockless.items() if key != "checksum"}
+        for level in (row.get("accuracy") or {}).get("lanes") or ():
+            del level["idle"]
         if row["arrays"]:
             with np.load(runs / name.split("/")[0] / row["arrays"], allow_pickle=False) as stored:
                 found[name]["arrays"] = {key: stored[key].tobytes() for key in stored.files}
