@@ -2,8 +2,9 @@
 
     python -m tests.benchmarks.cluster_rows [CONFIG]
 
-The cluster is a scheduler of Dask, and `firsthit worker` with a process for each device and one for a core. What no
-clock decides must be the same: status, identity, answers ray by ray, errors, evaluations. CONFIG is quick by default.
+The cluster is a scheduler of Dask, and `firsthit worker` with a process for each device and one for a core. What
+neither a clock nor the order of a queue decides must be the same: status, identity, answers ray by ray, errors,
+evaluations. CONFIG is quick by default.
 """
 
 from __future__ import annotations
@@ -50,7 +51,9 @@ def main(config: str = "quick") -> None:
             while frame.ENDINGS:
                 frame.ENDINGS.pop()()
     devices = sorted({row["device"] for row in one.values()})
-    print(f"{config}: {len(one)} rows on {', '.join(devices)}: all but times are the same, here and on a cluster")
+    print(
+        f"{config}: {len(one)} rows on {', '.join(devices)}: all but times and idle lanes are the same, here and on a cluster"
+    )
     print(f"here {here:.0f} s, on a cluster of one machine {there:.0f} s")
 
 
