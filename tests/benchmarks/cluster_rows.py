@@ -51,9 +51,7 @@ def main(config: str = "quick") -> None:
             while frame.ENDINGS:
                 frame.ENDINGS.pop()()
     devices = sorted({row["device"] for row in one.values()})
-    print(
-        f"{config}: {len(one)} rows on {', '.join(devices)}: all but times and idle lanes are the same, here and on a cluster"
-    )
+    print(f"{config}: {len(one)} rows on {', '.join(devices)}, here and on a cluster: the same but for times and lanes")
     print(f"here {here:.0f} s, on a cluster of one machine {there:.0f} s")
 
 
