@@ -138,7 +138,7 @@ def test_a_run_leaves_a_line_for_each_cell_and_no_litter(config):
     assert played.code == 0
     text, width_of = "\n".join(played.lines), max(map(len, played.lines))
     cells = [line for line in played.lines if re.match(r"\[\d/4\] ", line)]
-    assert len(cells) == 3 and all(re.search(r"\w+:\w+: [\d.e-]+ ms(, \w+)*$", line) for line in cells), text
+    assert len(cells) == 3 and all(re.search(r"\w+:\w+: [\d.e-]+ ms(, [\w…]+)*$", line) for line in cells), text
     last = played.lines.index(cells[-1])
     assert played.lines[: last + 1] == cells and width_of <= 60, text
     assert "".join(played.lines[last + 1 :]).split(";")[0].endswith("4 cells run, 0 reused")
