@@ -166,7 +166,8 @@ def planted(folder, fault, always=""):
     kernel = (newton / "kernel.glsl").read_text().replace("Hit first_hit(", "Hit right_hit(")
     (mine / "kernel.glsl").write_text(
         f"{kernel}\nHit first_hit(Ray ray, real t0, real t1) {{\n    Hit hit = right_hit(ray, t0, t1);\n"
-        f"#if defined(__OPTIMIZE__) || !defined(__OPENCL_VERSION__)\n    {fault}\n#endif\n    {always}\n    return hit;\n}}\n"
+        f"#if defined(__OPTIMIZE__) || !defined(__OPENCL_VERSION__)\n    {fault}\n#endif\n    {always}\n"
+        "    return hit;\n}\n"
     )
     return folder
 
@@ -175,7 +176,8 @@ def rows_of_planted(folder, more=""):
     """Run the planted method and newton, with further lines of a config: their rows by the methods' names."""
     config = folder / "t.toml"
     config.write_text(
-        f'title = "t"\nsurfaces = ["torus"]\nsizes = [256]\ndevices = ["{OPENCL[0]}"]\nprecisions = ["float32"]\n{more}\n'
+        f'title = "t"\nsurfaces = ["torus"]\nsizes = [256]\ndevices = ["{OPENCL[0]}"]\nprecisions = ["float32"]\n'
+        f"{more}\n"
         '[[method]]\nname = "planted"\n[[method]]\nname = "newton"\n'
         "[accuracy]\nsize = 32\n[budget]\nseconds = 0.05\nrepetitions = 3\ninterval = 0.0\n"
         '[surface.torus]\ndomain = "sphere:1.5"\n'
