@@ -63,5 +63,5 @@ def test_json_of_a_column_tells_values_apart():
 
 def test_the_benchmark_tells_how_time_grows():
     told = report_speed.growth({1_000: 12.0, 10_000: 30.0, 100_000: 210.0})
-    assert told.startswith("stored and reported, of a core: 10 s and 2.000 ms a row, within 0% of each; ")
+    assert told.startswith("storing and reporting take of a core 10 s and 2.000 ms a row, within 0% of each; ")
     assert told.endswith("from 10,000 to 100,000 rows it grows as the rows to the power of 0.85")
