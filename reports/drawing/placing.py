@@ -187,8 +187,9 @@ class _Between:
         costs = {}
         for i, own in options.items():
             here = slice(starts[i], starts[i] + len(own.cost))
-            leaders = of_all[:, here].astype(np.int16) + crossed[i].T
-            costs[i] = np.where(_apart(every, own.boxes), np.int16(0), np.int16(_ON_LABEL)) + _UNDER_LEADER * leaders
+            before, after = _apart(every[: here.stop], own.boxes), _apart(own.boxes, every[here.stop :]).T
+            beside = np.where(np.concatenate([before, after]), np.int16(0), np.int16(_ON_LABEL))
+            costs[i] = beside + np.int16(_UNDER_LEADER) * (of_all[:, here] | crossed[i].T)
         return cls(starts, costs)
 
     def beside(self, i: int, chosen: Mapping[int, int]) -> NDArray[np.float64]:
