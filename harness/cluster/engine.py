@@ -221,7 +221,7 @@ class Engine:
             for address in self._doubted & self._workers.keys():
                 self._workers[address].reached = None
             self._doubted.clear()
-            heard = {address: one for address, one in self._workers.items() if one.asked is not None and one.asked.done()}
+            heard = {address: one for address, one in self._workers.items() if one.asked and one.asked.done()}
             self._reach(heard.keys())
             for address, worker in heard.items():
                 self._hear(address, worker, listed[address])

@@ -208,7 +208,7 @@ def _apart(boxes: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[n
 
 
 def _crossed(leaders: NDArray[np.float64], far: NDArray[np.bool_], boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which leaders [c, 9, 2], of those that are drawn, `far` [c], go through which boxes [d, 4], as bool[c, d]."""
+    """Tell which leaders [c, 9, 2], of the `far` [c] ones, go through which boxes [d, 4], as bool[c, d]."""
     found = np.zeros((len(leaders), len(boxes)), bool)
     if far.any():
         drawn = leaders[far]
