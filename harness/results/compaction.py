@@ -127,14 +127,16 @@ def write_part(folder: Path, rows: Iterable[tuple[Row, bytes]]) -> Path:
                 pq.ParquetWriter(new, told, write_page_checksum=True, **options) as writer,
                 ThreadPoolExecutor(1) as beside,
             ):
-                waiting, writing = iter(rows), None
+
+                def write(made: pa.Table) -> None:  # Arrow's work, beside Python's for the next group
+                    writer.write_table(made, row_group_size=GROUP)
+
+                waiting, writing = iter(rows), beside.submit(lambda: None)
                 while group := list(islice(waiting, GROUP)):
                     made = table(group)
-                    if writing:
-                        writing.result()
-                    writing = beside.submit(writer.write_table, made, row_group_size=GROUP)  # Arrow, beside Python
-                if writing:
                     writing.result()
+                    writing = beside.submit(write, made)
+                writing.result()
             flush(new)
             path = place / f"{number:06d}-{parts.hash_of(new)}.parquet"
             new.chmod(0o644)
