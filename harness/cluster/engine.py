@@ -5,7 +5,7 @@ One that is not listed any more, or whose signs of life have not changed for SIL
 asked to start a silent one again. Where the scheduler does not answer, all workers count as lost until it is back.
 
 Steps and answers go straight to and from the workers where this process reaches all of them, since the way through the
-scheduler takes twice as long. Where it does not reach one, as behind a firewall, all goes through the scheduler.
+scheduler is longer. Where it does not reach one, as behind a firewall, all goes through the scheduler.
 """
 
 from __future__ import annotations
