@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from harness.results.writing import replacing_together
+from harness.results.writing import flush, replacing_together
 from reports import first_page, parts, wording
 from reports.analysis import breaks, derive
 from reports.content import Document
@@ -77,8 +77,7 @@ def _build(
     rungs = breaks.derive(loaded.families, loaded.rungs)
     material = Material(loaded, frame, rungs, Shelf(loaded.folders), load.focus_of(loaded, focus))
     with replacing_together(folder, "the report") as made, ThreadPoolExecutor(1) as beside:
-        results = (made / "results.csv", made / "results.parquet")
-        writing = beside.submit(export.write, frame, *results, rest=loaded.columns)  # mostly Arrow, beside Python
+        writing = beside.submit(_write_results, loaded, made)  # mostly Arrow and the disk, beside Python
         content = document_of(material, tell)
         tell("typesetting the PDF")
         document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created, appendix)
@@ -92,6 +91,14 @@ def _build(
             _for_papers(material, figures, tables, folder, made)
     if rungs.empty:
         (folder / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
+
+
+def _write_results(loaded: Run, made: Path) -> None:
+    """Write results.csv and results.parquet into the folder `made`, and wait until they are on the disk."""
+    files = (made / "results.csv", made / "results.parquet")
+    export.write(loaded.frame, *files, rest=loaded.columns)
+    for file in files:
+        flush(file)
 
 
 def _for_papers(material: Material, figures: Sequence[str], tables: Sequence[str], folder: Path, made: Path) -> None:

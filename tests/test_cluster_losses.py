@@ -89,6 +89,20 @@ def test_a_step_that_fails_at_once_is_taken_again_after_a_look_at_the_scheduler(
         assert executor._ask(INFO.name, "warm") == "taken" and len(looks) <= LOSSES
 
 
+def test_steps_go_through_the_scheduler_where_a_worker_is_not_reached(monkeypatch: pytest.MonkeyPatch) -> None:
+    reaches, walls = Engine._reaches, [True]
+    monkeypatch.setattr(Engine, "_reaches", lambda self, address: not walls and reaches(self, address))
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        place = engine.take(lambda _: True)
+        executor = ClusterExecutor(engine, INFO.name, place, lambda _: True, 5.0, 0.5)
+        for straight in (False, True):
+            assert engine.client.direct_to_workers is straight
+            assert executor.warm(INFO.name, "k", None).batch == 1  # type: ignore[arg-type]
+            walls.clear()
+            engine.look_again(place)  # as where a step was lost
+
+
 def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:
     with cluster([LAB1]) as (_, engine, _told):
         until(lambda: engine.places())

@@ -41,6 +41,22 @@ def test_cells_without_a_row_run_and_of_the_others_those_wanted_again(store, aga
 
 
 def test_the_estimate_is_of_the_cells_that_run_by_what_their_slots_took(store):
-    assert estimate_seconds([planned("new")], store, 2.0) == 2.0 + PREPARING
-    assert estimate_seconds([planned("ok"), planned("failed")], store, 2.0) == 14.0, "also of cells that run again"
-    assert estimate_seconds([planned("none", skip="no float64")], store, 2.0) == 0.0
+    def estimate(*cells, again="nothing"):
+        return estimate_seconds(due(cells, store, again), store, 2.0)
+
+    assert estimate(planned("new")) == 2.0 + PREPARING
+    assert estimate(planned("ok"), planned("failed"), again="everything") == 14.0, "also of cells that run again"
+    assert estimate(planned("none", skip="no float64")) == 0.0
+    changed = planned("new")
+    changed.cell.slot = "slot of ok"
+    assert estimate(changed) == 7.0, "its slot has a row under another key"
+
+
+def test_each_row_is_read_once_before_a_run_begins(store, monkeypatch):
+    read, whole_text = [], Store.text
+    monkeypatch.setattr(Store, "text", lambda self, key: read.append(key) or whole_text(self, key))
+    estimate_seconds(due([planned(key) for key in STATUSES], store), store, 2.0)
+    assert sorted(read) == sorted(STATUSES)
+    read.clear()
+    estimate_seconds(due([planned("new"), *map(planned, STATUSES)], store, "unfinished"), store, 2.0)
+    assert sorted(read) == sorted(["new", *STATUSES, "damaged"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
@@ -11,7 +12,9 @@ import pytest
 
 from harness import escaping
 from harness.results import schema
+from reports.analysis import rounds
 from reports.reading import export
+from reports.reading.taking import taken
 from reports.reading.tuples import tuples
 from tests.benchmarks import report_speed
 
@@ -63,5 +66,28 @@ def test_json_of_a_column_tells_values_apart():
 
 def test_the_benchmark_tells_how_time_grows():
     told = report_speed.growth({1_000: 12.0, 10_000: 30.0, 100_000: 210.0})
-    assert told.startswith("stored and reported, of a core: 10 s and 2.000 ms a row, within 0% of each; ")
+    assert told.startswith("storing and reporting take of a core 10 s and 2.000 ms a row, within 0% of each; ")
     assert told.endswith("from 10,000 to 100,000 rows it grows as the rows to the power of 0.85")
+
+
+@pytest.mark.parametrize("places", [[3, 4, 5], [5, 3, 4], [0, 9, 4, 4], [7], []])
+def test_rows_that_lie_together_are_taken_as_pandas_takes_them(places):
+    frame = pd.DataFrame({"key": list("abcdefghij"), "ms": np.arange(10.0), "n": pd.array(range(10), "Int64")})
+    frame.index = pd.Index(range(20, 30))
+    at = np.array(places, np.intp)
+    pd.testing.assert_frame_equal(taken(frame, at), frame.take(at))
+    pd.testing.assert_frame_equal(taken(frame, at, ["n", "key"]), frame.take(at)[["n", "key"]])
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 8])
+def test_no_row_with_a_smaller_median_ratio_is_left_out_as_slower(count):
+    rng = np.random.default_rng(count)
+    times = [list(rng.choice([0.5, 0.9, 1.0, 1.1], count)) for _ in range(200)]
+    told = {"session": ["s"] * 200, "rounds": [json.dumps(list(range(count)))] * 199 + ["[99]"], "samples_ms": times}
+    rows = pd.DataFrame(told)
+    medians = {first.Index: rounds.medians_over(rows, first) for first in list(tuples(rows))[:5]}
+    for place, own in medians.items():
+        first = next(tuples(rows.loc[[place]]))
+        assert rounds.maybe_faster(rows, first).tolist() == (~(own >= 1.0)).tolist()
+        assert np.isnan(own[-1]), "it shares no round with the first"
+    assert any((own < 1.0).any() for own in medians.values())

@@ -3,17 +3,21 @@
 One thread looks at the scheduler again and again, and tells those who wait. A worker that is new is asked what it has.
 One that is not listed any more, or whose signs of life have not changed for SILENT_SECONDS, counts as lost; Dask is
 asked to start a silent one again. Where the scheduler does not answer, all workers count as lost until it is back.
+
+Steps and answers go straight to and from the workers where this process reaches all of them, since the way through the
+scheduler is longer. Where it does not reach one, as behind a firewall, all goes through the scheduler.
 """
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import pickle
 import signal
 import threading
 import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +29,7 @@ from harness.stopping import Stopped
 
 LOOK_SECONDS = 0.5  # between two looks at the scheduler
 ANSWER_SECONDS = 30.0  # for the scheduler to answer
+REACH_SECONDS = 3.0  # for a worker to answer this process without the scheduler
 SILENT_SECONDS = 30.0  # without a sign of life, after which a worker counts as lost
 PATIENCE_SECONDS = 120.0  # for which a lost device or scheduler is waited for
 
@@ -40,6 +45,7 @@ class _Worker:
     places: tuple[Place, ...] = ()
     cores: float = 0.0
     silent: bool = False
+    reached: bool | None = None  # whether it answers this process without the scheduler; None: not tried
 
 
 class Engine:
@@ -68,6 +74,7 @@ class Engine:
         self.problem: FirsthitError | None = None
         self._stopped = False
         self._told: set[str] = set()
+        self._doubted: set[str] = set()  # addresses of workers to which a step was lost
         self._last_change = time.monotonic()
         self._begun = self._looked = 0  # looks at the scheduler: how many began, and which one ended last
         self._ended = threading.Event()
@@ -162,6 +169,8 @@ class Engine:
         So what failed a moment ago is not tried again with a worker that has gone. Raises as `check` does.
         """
         with self._changed:
+            if place is not None:
+                self._doubted.add(place.address)
             begun = self._begun
             while self._looked <= begun and (place is None or place.gone is None):
                 self.check()
@@ -209,9 +218,13 @@ class Engine:
                     self._lose(worker, f"its worker gave no sign of life for {SILENT_SECONDS:.0f} s")
                     worker.places = ()
                     threading.Thread(target=self._restart, args=(address,), daemon=True).start()
-            for address, worker in self._workers.items():
-                if worker.asked is not None and worker.asked.done():
-                    self._hear(address, worker, listed[address])
+            for address in self._doubted & self._workers.keys():
+                self._workers[address].reached = None
+            self._doubted.clear()
+            heard = {address: one for address, one in self._workers.items() if one.asked and one.asked.done()}
+            self._reach(heard.keys())
+            for address, worker in heard.items():
+                self._hear(address, worker, listed[address])
             self._looked = self._begun
             self._changed.notify_all()
 
@@ -221,6 +234,25 @@ class Engine:
             return None
         options = {"workers": [address], "pure": False, "key": f"firsthit-announce-{uuid.uuid4().hex}", "retries": 0}
         return self._client.submit(announce, dict(resources), **options)
+
+    def _reach(self, heard: Collection[str]) -> None:
+        """Let Dask go straight to the workers where this process reaches all of them, those that are `heard` too."""
+        there = {a: one for a, one in self._workers.items() if (one.announced or a in heard) and not one.silent}
+        for address, worker in there.items():
+            if worker.reached is None and all(other.reached is not False for other in there.values()):
+                worker.reached = self._reaches(address)
+        self._client.direct_to_workers = all(worker.reached for worker in there.values())
+
+    def _reaches(self, address: str) -> bool:
+        """Tell whether a worker answers this process without the scheduler."""
+
+        async def asked() -> None:
+            await asyncio.wait_for(self._client.rpc(address).identity(), REACH_SECONDS)
+
+        with contextlib.suppress(Exception):  # whatever a connection raises that cannot be made
+            self._client.sync(asked)
+            return True
+        return False
 
     def _hear(self, address: str, worker: _Worker, told: dict[str, Any]) -> None:
         """Take over what a worker has said of itself. One of other code counts as not there, and that is told."""

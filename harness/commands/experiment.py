@@ -173,7 +173,7 @@ def _planned(
     found = due(planned, store, asked=Begun(store.folder).again)
     for message in store.unreadable.values():
         tell_wrong(f"firsthit: {message}; `firsthit run` makes it again")
-    seconds = estimates(found.todo, store, part.config.budget.seconds)
+    seconds = estimates(found, store, part.config.budget.seconds)
     facts = experiments.PlanFacts(
         str(part.path),
         part.config.title,

@@ -17,6 +17,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -27,7 +28,7 @@ import numpy as np
 from harness.contract import FirsthitError
 from harness.results import parts, plan_file
 from harness.results.garbage import uncollected
-from harness.results.schema import SCHEMA, Kind, flattener
+from harness.results.schema import SCHEMA, Kind, flattener_of_many
 from harness.results.store import ENDING, Row, Store, row_of
 from harness.results.writing import flush, temporary_folder
 
@@ -83,7 +84,7 @@ def schema() -> pa.Schema:
     return pa.schema([*told, pa.field(FAMILY, pa.string()), pa.field(parts.TEXT, pa.binary())])
 
 
-_flatten = flattener(FIELDS)
+_flatten = flattener_of_many(FIELDS)
 
 
 def table(rows: Sequence[tuple[Row, bytes]]) -> pa.Table:
@@ -91,8 +92,7 @@ def table(rows: Sequence[tuple[Row, bytes]]) -> pa.Table:
     import pyarrow as pa
 
     told = schema()
-    lines = [(*_flatten(row), row.get("family"), text) for row, text in rows]
-    columns = zip(*lines, strict=True) if lines else [()] * len(told)
+    columns = [*_flatten([row for row, _ in rows]), [row.get(FAMILY) for row, _ in rows], [text for _, text in rows]]
     return pa.table([pa.array(values, field.type) for values, field in zip(columns, told, strict=True)], schema=told)
 
 
@@ -123,10 +123,20 @@ def write_part(folder: Path, rows: Iterable[tuple[Row, bytes]]) -> Path:
             new = scratch / "part"
             coded = [name for name in told.names if name not in UNIQUE and told.field(name).type == "string"]
             options: dict[str, Any] = {"compression": "zstd", "use_dictionary": coded, "write_statistics": False}
-            with pq.ParquetWriter(new, told, write_page_checksum=True, **options) as writer:
-                waiting = iter(rows)
+            with (
+                pq.ParquetWriter(new, told, write_page_checksum=True, **options) as writer,
+                ThreadPoolExecutor(1) as beside,
+            ):
+
+                def write(made: pa.Table) -> None:  # Arrow's work, beside Python's for the next group
+                    writer.write_table(made, row_group_size=GROUP)
+
+                waiting, writing = iter(rows), beside.submit(lambda: None)
                 while group := list(islice(waiting, GROUP)):
-                    writer.write_table(table(group), row_group_size=GROUP)
+                    made = table(group)
+                    writing.result()
+                    writing = beside.submit(write, made)
+                writing.result()
             flush(new)
             path = place / f"{number:06d}-{parts.hash_of(new)}.parquet"
             new.chmod(0o644)

@@ -152,19 +152,28 @@ def flattener(fields: Sequence[Field]) -> Callable[[dict[str, Any]], tuple[Any, 
 
     The row was held against its declaration (harness.results.agreement). A value that is null or absent is None.
     """
-    paths = dict.fromkeys(field.path[:-1] for field in fields)
-    places = {path: at for at, path in enumerate(paths)}
-    wanted = [(places[field.path[:-1]], field.path[-1], _MADE.get(field.kind)) for field in fields]
+    columns = flattener_of_many(fields)
+    return lambda row: tuple(column[0] for column in columns([row]))
 
-    def flatten(row: dict[str, Any]) -> tuple[Any, ...]:
-        objects = [_object(row, path) for path in paths]
-        values = []
-        for at, name, made in wanted:
-            value = objects[at].get(name)
-            values.append(value if made is None or value is None else made(value))
-        return tuple(values)
+
+def flattener_of_many(fields: Sequence[Field]) -> Callable[[Sequence[dict[str, Any]]], list[list[Any]]]:
+    """Make the function that returns for each of `fields` its values in stored rows, as `flattener` says of one row."""
+    paths = dict.fromkeys(field.path[:-1] for field in fields)
+    wanted = [(field.path[:-1], field.path[-1], field.kind) for field in fields]
+
+    def flatten(rows: Sequence[dict[str, Any]]) -> list[list[Any]]:
+        objects = {path: [_object(row, path) for row in rows] for path in paths}
+        return [_made([one.get(name) for one in objects[path]], kind) for path, name, kind in wanted]
 
     return flatten
+
+
+def _made(values: list[Any], kind: Kind) -> list[Any]:
+    """Return the values of leaves as a column of their kind holds them."""
+    made = _MADE.get(kind)
+    if made is None or (kind == "real" and set(map(type, values)) <= _REAL):  # they are as they should be
+        return values
+    return [value if value is None else made(value) for value in values]
 
 
 def _object(row: dict[str, Any], path: tuple[str, ...]) -> dict[str, Any]:
@@ -183,6 +192,7 @@ def _json_of(marshalled: bytes) -> str:
 
 _ENCODE = json.JSONEncoder(sort_keys=True).encode
 _NOTHING: dict[str, Any] = {}
+_REAL = {float, type(None)}
 _MADE: dict[Kind, Callable[[Any], Any]] = {  # other values are columns' as they are
     "real": float,
     "json": lambda value: _json_of(marshal.dumps(value)),

@@ -12,7 +12,7 @@ begun/               what is known of cells that have no row yet (harness.result
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -158,9 +158,12 @@ class Store:
             if (row := self.read(key, older=True)) and row["slot"] == slot:
                 yield row
 
-    def rows(self) -> Iterator[Row]:
-        """Yield every row that can be read, current or stale; what an older version did not write is null."""
-        for key in self.in_storage_order(self.keys()):
+    def rows(self, but: Container[str] = ()) -> Iterator[Row]:
+        """Yield every row that can be read, current or stale, `but` those of some keys.
+
+        What an older version did not write is null.
+        """
+        for key in self.in_storage_order(key for key in self.keys() if key not in but):
             if row := self.read(key, older=True):
                 yield row
 

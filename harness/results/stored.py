@@ -31,6 +31,9 @@ class Stored(Mapping[str, Row]):
         reason = self.store.unreadable.get(key, "its file is gone")
         raise FirsthitError(f"the row {key} of {self.store.folder} cannot be read any more: {reason}", exit_code=3)
 
+    def __contains__(self, key: object) -> bool:  # Mapping's own would read the row
+        return key in self.statuses
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.statuses)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -26,6 +26,7 @@ class Due:
     todo: list[Planned]  # in the plan's order
     kept: Stored  # the other cells' rows by their keys, in the plan's order
     replaced: frozenset[str]  # keys of those that must run although they have a row
+    seconds: Mapping[str, float]  # that the rows of the latter took, by their slots
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing", asked: Collection[str] = ()) -> Due:
@@ -35,16 +36,18 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing", aske
     cannot be read counts as none; `store.unreadable` then says why.
     """
     kept, replaced, statuses = Stored(store), set(), dict[str, CellStatus]()
+    seconds: dict[str, float] = {}
     for key in store.in_storage_order(one.key for one in planned):
         if row := store.read(key):
             if key in asked or _is_wanted_again(row, again):
                 replaced.add(key)
+                seconds[row["slot"]] = row["seconds"] or 0.0
             else:
                 statuses[key] = CellStatus(row["status"])
     for one in planned:
         if one.key in statuses:
             kept.statuses[one.key] = statuses[one.key]
-    return Due([p for p in planned if p.key not in kept], kept, frozenset(replaced))
+    return Due([p for p in planned if p.key not in kept], kept, frozenset(replaced), seconds)
 
 
 def begin(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> tuple[Due, Begun, list[Path]]:
@@ -71,13 +74,20 @@ def _is_wanted_again(row: Row, again: Again) -> bool:
     return again == "everything" or (again == "unfinished" and row["status"] in UNFINISHED)
 
 
-def estimate_seconds(todo: Iterable[Planned], store: Store, budget_seconds: float) -> float:
-    """Estimate the seconds that cells will take together."""
-    return sum(estimates(todo, store, budget_seconds).values())
+def estimate_seconds(found: Due, store: Store, budget_seconds: float) -> float:
+    """Estimate the seconds that the cells which must run will take together."""
+    return sum(estimates(found, store, budget_seconds).values())
 
 
-def estimates(todo: Iterable[Planned], store: Store, budget_seconds: float) -> dict[str, float]:
-    """Estimate the seconds of each cell, by its key: as many as its slot took before, else the whole budget's."""
-    before: dict[str, float] = {row["slot"]: row["seconds"] or 0.0 for row in store.rows()}
+def estimates(found: Due, store: Store, budget_seconds: float) -> dict[str, float]:
+    """Estimate the seconds of each cell that must run, by its key.
+
+    They are as many as its slot took before, else the whole budget's. No row is read that `due` has read, since there
+    may be very many.
+    """
+    if not found.todo:
+        return {}
+    read = {*found.kept, *found.replaced}
+    before = {row["slot"]: row["seconds"] or 0.0 for row in store.rows(but=read)} | dict(found.seconds)
     typical = budget_seconds + PREPARING
-    return {p.key: before.get(p.cell.slot, 0.0 if p.skip or p.failure else typical) for p in todo}
+    return {p.key: before.get(p.cell.slot, 0.0 if p.skip or p.failure else typical) for p in found.todo}

@@ -328,7 +328,7 @@ def _run_part(
             hears.told(f"{store.folder}: removed {plural(len(swept), 'file')} that killed commands left")
         for message in store.unreadable.values():
             hears.wrong(f"{message}; running that cell again")
-        seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
+        seconds = estimate_seconds(found, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         rows, told = Stored(store), (packing.cell, hears.hears_builds, threading.RLock())
 

@@ -11,6 +11,7 @@ import pandas as pd
 
 from reports.analysis import derive, shown, ties
 from reports.analysis.scene_names import picture_size
+from reports.reading.taking import taken
 from reports.reading.tuples import tuples
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
@@ -69,9 +70,9 @@ def choices(frame: pd.DataFrame) -> list[Choice]:
     if rows.empty:
         return []
     named = _names(frame.loc[rows.drop_duplicates("comparison").index, _COLUMNS])
-    of = rows.groupby("surface", sort=False).groups
+    at, of = frame.index.get_indexer(rows.index), rows.groupby("surface", sort=False).indices
     order = [surface for surface in dict.fromkeys(frame["surface"]) if surface in of]
-    return [_choice(str(surface), named, frame.loc[of[surface], _COLUMNS]) for surface in order]
+    return [_choice(str(surface), named, taken(frame, at[of[surface]], _COLUMNS)) for surface in order]
 
 
 def _names(scenes: pd.DataFrame) -> dict[str, str]:
@@ -144,6 +145,9 @@ def others(tied: Sequence[str]) -> list[str]:
 
 def precision_of(rows: pd.DataFrame) -> str:
     """Return the precision that most of the rows have, the plan's first of several."""
+    counts = rows["precision"].value_counts(sort=False)
+    if (counts == counts.max()).sum() == 1:  # then their order does not matter
+        return str(counts.idxmax())
     return str(common(rows["precision"].sort_index()))
 
 

@@ -51,15 +51,33 @@ def medians_over(rows: pd.DataFrame, first: Any) -> NDArray[np.float64]:
     Returns float64[n]; NaN for the others, of which nothing is told.
     """
     found = np.full(len(rows), math.nan)
+    alike, own = _alike(rows, first)
+    if len(alike):
+        found[alike] = np.median(own / np.array(first.samples_ms, np.float64), axis=1)
+    return found
+
+
+def maybe_faster(rows: pd.DataFrame, first: Any) -> NDArray[np.bool_]:
+    """Tell which rows may be faster than `first`: all but those whose median of `medians_over` is 1 or more."""
+    found = np.ones(len(rows), bool)
+    alike, own = _alike(rows, first)
+    if len(alike):
+        times = np.array(first.samples_ms, np.float64)
+        open_ = (own < times).sum(axis=1) > (len(times) - 1) // 2  # the middle ratios of all others are 1 or more
+        found[alike] = False
+        found[alike[open_]] = ~(np.median(own[open_] / times, axis=1) >= 1.0)
+    return found
+
+
+def _alike(rows: pd.DataFrame, first: Any) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Return the places of the k rows with the same rounds of the same run as `first`, and their times [k, rounds]."""
+    nothing = np.empty(0, np.intp), np.empty((0, 0))
     if wording.absent(first.session) or wording.absent(first.rounds) or not first.samples_ms:
-        return found
+        return nothing
     session, rounds, samples = (rows[name].to_numpy() for name in COLUMNS)
     same = np.flatnonzero((session == first.session) & (rounds == first.rounds))
     alike = [at for at in same.tolist() if samples[at]]
-    if alike:
-        own = _times([samples[at] for at in alike])
-        found[alike] = np.median(own / np.array(first.samples_ms, np.float64), axis=1)
-    return found
+    return (np.array(alike, np.intp), _times([samples[at] for at in alike])) if alike else nothing
 
 
 def _times(samples: Sequence[Sequence[float]]) -> NDArray[np.float64]:

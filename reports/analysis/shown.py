@@ -6,6 +6,7 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports.analysis.derive import casters, on_fullest_device
+from reports.reading.taking import taken
 
 SPREADS = 8  # a run with at most so many surfaces has two pages for each; one with more has an atlas
 FOLDED = 6  # the surfaces of an atlas whose pages are in the details, which are HTML alone
@@ -89,8 +90,8 @@ def with_pages(frame: pd.DataFrame) -> list[str]:
 
 def in_galleries(frame: pd.DataFrame) -> pd.DataFrame:
     """Select the rows whose error maps the surfaces' pages show."""
-    kept = with_pages(frame)
-    own = (in_strip(rows) for name, rows in frame.groupby("surface", sort=False) if name in kept)
+    places, kept = frame.groupby("surface", sort=False).indices, with_pages(frame)
+    own = (in_strip(taken(frame, at)) for name, at in places.items() if name in kept)
     return pd.concat([frame.head(0), *own])
 
 

@@ -70,8 +70,7 @@ def best(rows: pd.DataFrame) -> Any:
     first, behind = _at(rows, 0), 1
     while behind < len(rows):
         left = rows.iloc[behind:]
-        maybe = ~(rounds.medians_over(left, first) >= 1.0)  # the others are no faster, which takes no test
-        for at in (behind + np.flatnonzero(maybe)).tolist():
+        for at in (behind + np.flatnonzero(rounds.maybe_faster(left, first))).tolist():  # the others take no test
             row = _at(rows, at)
             if row.samples_ms and first.samples_ms and min(row.samples_ms) >= max(first.samples_ms):
                 continue  # it is faster in no round

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +14,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from harness.contract import ORIGINS, CellStatus, Origin
+from reports import wording
 from reports.analysis import derive, rounds
 from reports.reading.arrays import Arrays, Shelf
 
@@ -33,7 +34,8 @@ _WORDS: Mapping[Origin, str] = {
 }
 
 
-_BY = [*derive.GROUP, "origin", "surface", "parameters"]  # what `Evidence.rows` selects by
+_SELECTS = ("origin", "precision", "surface", "parameters")  # what `Evidence.rows` selects by
+_BY = list(dict.fromkeys([*derive.GROUP, *_SELECTS]))
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,11 @@ class Evidence:
         return {str(method): places[at] for method, at in by_method.items()}
 
     @cached_property
+    def _coded(self) -> dict[str, dict[str, _Coded]]:
+        """Return by method the columns by which `rows` selects its finished rows, by the columns' names."""
+        return {method: {name: _Coded.of(told[name]) for name in _SELECTS} for method, told in self._told.items()}
+
+    @cached_property
     def _told(self) -> dict[str, pd.DataFrame]:
         """Return by method what `rows` selects its finished rows by; all columns of very many rows are not copied."""
         told = self.frame[_BY]
@@ -96,7 +103,7 @@ class Evidence:
             base = self._runs.get(run_of(config), self)
             self._judged[config] = replace(base, config=config)
             # these do not depend on the config
-            vars(self._judged[config]).update(_finished=base._finished, _told=base._told)
+            vars(self._judged[config]).update(_finished=base._finished, _told=base._told, _coded=base._coded)
         return self._judged[config]
 
     @cached_property
@@ -146,15 +153,14 @@ class Evidence:
         """
         if pick.method not in self._told:
             return self.frame.head(0)
-        rows = self._told[pick.method]
-        kept = _true(rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin)))
+        rows, by, origin = self._told[pick.method], self._coded[pick.method], pick.origin or self.origin
+        kept = by["origin"].where(lambda own: wording.absent(own) or own == origin)
         if precision is not None:
-            kept = kept & _true(rows["precision"] == precision)
+            kept = kept & by["precision"].where(lambda own: own == precision)
         if surfaces is not None:
-            kept = kept & _true(rows["surface"].isin(list(surfaces)))
+            kept = kept & by["surface"].where(frozenset(surfaces).__contains__)
         if pick.knobs:
-            texts = {text: _has(text, pick.knobs) for text in rows["parameters"].unique()}
-            kept = kept & _true(rows["parameters"].map(texts).astype(bool))
+            kept = kept & by["parameters"].where(lambda text: _has(text, pick.knobs))
         at = np.flatnonzero(kept)
         at = at[~rows[derive.GROUP].take(at).duplicated().to_numpy()]
         return self.frame.take(self._finished[pick.method][at])
@@ -191,9 +197,21 @@ def run_of(config: str) -> str:
     return Path(config).stem
 
 
-def _true(held: pd.Series) -> NDArray[np.bool_]:
-    """Return a column of truths as an array; what is missing is False."""
-    return np.asarray(held.fillna(False), bool)
+@dataclass(frozen=True, eq=False)
+class _Coded:
+    """Hold a column whose values repeat: each value once, and the place of each row's among these."""
+
+    values: list[Any]
+    codes: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, column: pd.Series) -> _Coded:
+        codes, values = pd.factorize(column, use_na_sentinel=False)
+        return cls(list(values), codes)
+
+    def where(self, holds: Callable[[Any], bool]) -> NDArray[np.bool_]:
+        """Tell for each row whether something holds of its value, as bool[n]."""
+        return np.array([holds(value) for value in self.values], bool)[self.codes]
 
 
 def _has(parameters: str | None, knobs: Mapping[str, float]) -> bool:

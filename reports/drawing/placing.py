@@ -28,13 +28,8 @@ _ALONG = 1.5  # a leader so near to a line is taken for a part of it
 _AFAR = 3.0  # a label farther than this from its mark has a leader
 _SWEEPS = 12
 _KEPT = 90  # places of a label that are tried
-_ON_LABEL, _ON_MARK, _UNDER_LEADER, _THROUGH, _ON_LINE = (
-    4000.0,
-    2000.0,
-    60.0,
-    25.0,
-    6.0,
-)  # costs; a reach costs its length
+_ON_LABEL, _UNDER_LEADER = 4000, 60  # costs of two labels; a reach costs its length
+_ON_MARK, _THROUGH, _ON_LINE = 2000.0, 25.0, 6.0
 
 
 @dataclass(frozen=True)
@@ -88,7 +83,7 @@ def place(
     options = [_Options.of(at[i], size[i], area, radius, foreign[i], along) for i in range(len(at))]
     placed: list[Place | None] = [None] * len(at)
     kept = [i for i, own in enumerate(options) if len(own.cost)]
-    between = {(i, j): _between(options[i], options[j]) for i, j in itertools.combinations(kept, 2)}
+    between = _Between.of({i: options[i] for i in kept})
     while kept:
         chosen, bad = _settle({i: options[i].cost for i in kept}, between)
         if not bad:
@@ -148,58 +143,83 @@ class _Options:
         return Place(x, y, (x0, y0, x1, y1) if self.far[option] else None)
 
 
-def _settle(
-    costs: Mapping[int, NDArray[np.float64]], between: Mapping[tuple[int, int], NDArray[np.float64]]
-) -> tuple[dict[int, int], list[int]]:
+def _settle(costs: Mapping[int, NDArray[np.float64]], between: _Between) -> tuple[dict[int, int], list[int]]:
     """Choose a place for each label; return the choices, and the labels that still lie on a label or a mark.
 
-    `costs` are of each place by itself, `between` of each two places of two labels. Labels are placed one after the
-    other, in several orders, and then moved as long as that helps; the cheapest result is taken.
+    `costs` are of each place by itself. Labels are placed one after the other, in several orders, and then moved as
+    long as that helps; the cheapest result is taken.
     """
     names = list(costs)
-    shared = {(i, j): between[i, j] if i < j else between[j, i].T for i in names for j in names if i != j}
     best: tuple[float, dict[int, int], list[int]] | None = None
     for order in (names, names[::-1], names[1::2] + names[::2], names[::2] + names[1::2]):
         chosen: dict[int, int] = {}
         for _ in range(_SWEEPS):
             before = dict(chosen)
             for i in order:
-                chosen[i] = int(_beside(i, costs, shared, chosen).argmin())
+                chosen[i] = int((costs[i] + between.beside(i, chosen)).argmin())
             if chosen == before:
                 break
-        paid = {i: float(_beside(i, costs, shared, chosen)[chosen[i]]) for i in names}
+        paid = {i: float(costs[i][chosen[i]] + between.beside(i, chosen)[chosen[i]]) for i in names}
         if best is None or sum(paid.values()) < best[0]:
             best = (sum(paid.values()), chosen, [i for i in names if paid[i] >= _ON_MARK])
     return ({}, []) if best is None else best[1:]
 
 
-def _beside(
-    i: int,
-    costs: Mapping[int, NDArray[np.float64]],
-    shared: Mapping[tuple[int, int], NDArray[np.float64]],
-    chosen: Mapping[int, int],
-) -> Any:
-    """Return what each place of label `i` costs beside the places chosen for others, as float64[c]."""
-    return costs[i] + sum(shared[i, j][:, place] for j, place in chosen.items() if j != i)
+@dataclass(frozen=True, eq=False)
+class _Between:
+    """Hold what places of labels cost beside places of others: at once, since there are many pairs.
+
+    starts: where the places of each label begin among those of all
+    costs: by label, int16[p, c]: what each of its c places costs beside each of the p places of all labels
+    """
+
+    starts: Mapping[int, int]
+    costs: Mapping[int, NDArray[np.int16]]
+
+    @classmethod
+    def of(cls, options: Mapping[int, _Options]) -> _Between:
+        """Hold the costs of labels with these places."""
+        every = np.concatenate([np.zeros((0, 4)), *(own.boxes for own in options.values())])
+        ends = itertools.accumulate((len(own.cost) for own in options.values()), initial=0)
+        starts = dict(zip(options, ends, strict=False))
+        crossed = {i: _crossed(own.leaders, own.far, every) for i, own in options.items()}
+        of_all = np.concatenate([np.zeros((0, len(every)), bool), *crossed.values()])
+        costs = {}
+        for i, own in options.items():
+            here = slice(starts[i], starts[i] + len(own.cost))
+            before, after = _apart(every[: here.stop], own.boxes), _apart(own.boxes, every[here.stop :]).T
+            beside = np.where(np.concatenate([before, after]), np.int16(0), np.int16(_ON_LABEL))
+            costs[i] = beside + np.int16(_UNDER_LEADER) * (of_all[:, here] | crossed[i].T)
+        return cls(starts, costs)
+
+    def beside(self, i: int, chosen: Mapping[int, int]) -> NDArray[np.float64]:
+        """Return what each place of label `i` costs beside the places chosen for others, as float64[c]."""
+        others = [self.starts[j] + place for j, place in chosen.items() if j != i]
+        return np.asarray(self.costs[i][others].sum(axis=0, dtype=np.float64))
 
 
-def _between(one: _Options, other: _Options) -> NDArray[np.float64]:
-    """Return what each place of one label costs beside each of another, as float64[c, d]."""
-    low, high = one.boxes[:, None, :2], one.boxes[:, None, 2:]
-    beyond = (low > other.boxes[None, :, 2:] + _GAP) | (high < other.boxes[None, :, :2] - _GAP)
-    apart = beyond[..., 0] | beyond[..., 1]
-    crossed = one.far[:, None] * _crossed(one.leaders, other.boxes)
-    crossed = crossed + (other.far[:, None] * _crossed(other.leaders, one.boxes)).T
-    return np.asarray(np.where(apart, 0.0, _ON_LABEL) + _UNDER_LEADER * crossed)
-
-
-def _crossed(leaders: NDArray[np.float64], boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which leaders [c, 9, 2] go through which boxes [d, 4], as bool[c, d]."""
-    found: Any = np.zeros((len(leaders), len(boxes)), bool)
-    for x, y in leaders.transpose(1, 2, 0):
-        inside = (x[:, None] >= boxes[:, 0]) & (x[:, None] <= boxes[:, 2])
-        found |= inside & (y[:, None] >= boxes[:, 1]) & (y[:, None] <= boxes[:, 3])
+def _apart(boxes: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which boxes [c, 4] have a gap to which others [d, 4], as bool[c, d]."""
+    found: Any = np.zeros((len(boxes), len(others)), bool)
+    for axis in (0, 1):
+        found |= boxes[:, axis, None] > others[:, axis + 2] + _GAP[axis]
+        found |= boxes[:, axis + 2, None] < others[:, axis] - _GAP[axis]
     return np.asarray(found)
+
+
+def _crossed(leaders: NDArray[np.float64], far: NDArray[np.bool_], boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which leaders [c, 9, 2], of the `far` [c] ones, go through which boxes [d, 4], as bool[c, d]."""
+    found = np.zeros((len(leaders), len(boxes)), bool)
+    if far.any():
+        drawn = leaders[far]
+        low, high = drawn.min(axis=(0, 1)), drawn.max(axis=(0, 1))
+        maybe = ((boxes[:, 2:] >= low) & (boxes[:, :2] <= high)).all(axis=1)
+        left, bottom, right, top = boxes[maybe].T.copy()
+        met = np.zeros((len(drawn), len(left)), bool)
+        for x, y in drawn.transpose(1, 2, 0)[..., None]:
+            met |= (x >= left) & (x <= right) & (y >= bottom) & (y <= top)
+        found[np.ix_(far, maybe)] = met
+    return found
 
 
 def _count(boxes: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Any:
@@ -211,8 +231,13 @@ def _count(boxes: NDArray[np.float64], points: NDArray[np.float64], radius: floa
 
 def _near(leaders: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Any:
     """Tell which points [m, 2] lie within `radius` of which points of leaders [c, 9, 2], as bool[c, 9, m]."""
-    (x, y), (along, up) = leaders.transpose(2, 0, 1)[..., None], points.T
-    return (np.abs(x - along) < radius) & (np.abs(y - up) < radius)
+    found = np.zeros((*leaders.shape[:2], len(points)), bool)
+    if found.size:
+        low, high = leaders.min(axis=(0, 1)) - radius, leaders.max(axis=(0, 1)) + radius
+        maybe = ((points >= low) & (points <= high)).all(axis=1)  # most are far away
+        (x, y), (along, up) = leaders.transpose(2, 0, 1)[..., None], points[maybe].T
+        found[..., maybe] = (np.abs(x - along) < radius) & (np.abs(y - up) < radius)
+    return found
 
 
 def _dotted(line: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -117,6 +117,8 @@ def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
 
 def _prepass(frame: pd.DataFrame) -> list[Section]:
     """Make one section where a variant was timed with and without the prepass in one comparison."""
+    if not (frame["prepass"] == "beams").any():  # which is looked at first: of very many rows a copy of all takes 1 GB
+        return []
     rows = derive.contenders(frame)
     rows = rows.assign(right=derive.all_right(rows))
     plain, behind = rows[rows["prepass"] != "beams"], rows[rows["prepass"] == "beams"]

@@ -25,6 +25,7 @@ from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, se
 from reports.drawing.style import Mark
 from reports.material import Material
 from reports.reading.arrays import Shelf
+from reports.reading.taking import taken
 from reports.reading.tuples import tuples
 
 ORDER = 40
@@ -78,8 +79,8 @@ def sections(material: Material) -> list[Section]:
     """Make a section with a matrix of the worst ratios, and a figure of the surface that tells most; [] without any."""
     frame = surface_names.printed_alone(material.frame)
     found: list[tuple[list[Cloud], pd.Series]] = []
-    for _, rows in frame.groupby("surface", sort=False):
-        drawn = shown.of_surface(rows, VARIANTS)
+    for places in frame.groupby("surface", sort=False).indices.values():
+        drawn = shown.of_surface(taken(frame, places), VARIANTS)
         clouds = [cloud for row in tuples(drawn) if (cloud := _cloud(material.shelf, row)) is not None]
         if clouds:
             found.append((clouds, drawn.iloc[0]))

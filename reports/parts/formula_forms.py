@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -108,10 +109,12 @@ def _square(row: Any, printed: Any) -> Square:
 
 def _picture(frame: pd.DataFrame) -> pd.DataFrame:
     """Select the finished rows of surfaces with several forms, of the first device, precision, view and size of any."""
-    rows = frame[frame["answers"].astype(bool) & (frame["status"] == CellStatus.OK)]
+    bases = Counter(map(base_of, frame["surface"].unique()))
+    several = [name for name in frame["surface"].unique() if bases[base_of(name)] > 1]  # a run may have none
+    rows = frame[frame["surface"].isin(several)]
+    rows = rows[rows["answers"].astype(bool) & (rows["status"] == CellStatus.OK)]
     rows = rows.assign(base=rows["surface"].map(base_of), form=rows["surface"].map(form_of))
-    several = rows.groupby([*_ONE_PICTURE, "base"])["surface"].transform("nunique") > 1
-    rows = rows[several]
+    rows = rows[rows.groupby([*_ONE_PICTURE, "base"])["surface"].transform("nunique") > 1]
     return rows if rows.empty else rows[(rows[_ONE_PICTURE] == rows[_ONE_PICTURE].iloc[0]).all(axis=1)]
 
 

@@ -32,14 +32,14 @@ PLACE = ["surface", "surface_title", "view", "size", "samples_per_pixel", "preci
 def sections(material: Material) -> list[Section]:
     """Make one section where scenes were drawn, and one where tolerances in pixels were compared."""
     frame = material.listed
-    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
-    drawn = rows[rows["scene"].notna() & ~(rows["pixel_tolerance"] > 0.0)]
+    timed = (frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()
+    drawn = frame[timed & frame["scene"].notna() & ~(frame["pixel_tolerance"] > 0.0)]
     full = _equal_error(drawn)
     made = []
     if tabled := [table for table in (full, _each(drawn)) if table]:
         shown: tuple[Block, ...] = (Text(f"{LEAD} {_said(full)}"), _short(full)) if full else ()
         made.append(Section("Scenes", shown, tuple(tabled)))
-    loose = rows[rows["pixel_tolerance"].notna()]
+    loose = frame[timed & frame["pixel_tolerance"].notna()]
     if loosened := _detail(loose):
         saved = _saved(loose)
         made.append(Section("Detail where the scene needs it", (Text(SAVED), saved), (loosened,), name="Tolerances"))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from harness.contract import CellStatus
@@ -20,6 +21,7 @@ from reports.content import Block, Figure, Gallery, Section, Text
 from reports.drawing import cards, error_maps, fronts, surface_tables, tables
 from reports.material import Material
 from reports.reading.arrays import Arrays
+from reports.reading.taking import taken
 
 ORDER = 20
 FRONTS = 16  # plots of further scenes and devices, in the details of all surfaces that have pages
@@ -41,8 +43,12 @@ class _Surfaces:
     def __len__(self) -> int:
         return len(self._places)
 
+    def of(self, surface: str) -> pd.DataFrame:
+        """Return the rows of a surface, of which there may be none."""
+        return taken(self._frame, self._places.get(surface, np.empty(0, np.intp)))
+
     def __iter__(self) -> Iterator[tuple[str, pd.DataFrame]]:
-        return ((str(name), self._frame.take(places)) for name, places in self._places.items())
+        return ((str(name), taken(self._frame, places)) for name, places in self._places.items())
 
 
 def sections(material: Material) -> list[Section]:
@@ -54,7 +60,7 @@ def sections(material: Material) -> list[Section]:
     if finished.empty:
         return [Section("Surfaces", (Text("No cell gave a result; the reasons are listed below."),))]
     chosen, told = _printed(finished)
-    printed = frame.loc[chosen.index]
+    printed = _Surfaces(frame.loc[chosen.index])
     guide = Section(
         "How to read the surfaces' pages", (), (*map(Text, (surface_tables.LEGEND, surface_tables.UNITS)), *told)
     )
@@ -67,7 +73,7 @@ def sections(material: Material) -> list[Section]:
     for i, (surface, rows) in enumerate(surfaces):
         first, second = _pages(material, rows, f"front-{i}") if surface in paged else ([], [])
         further, room = _further(material, rows, named, f"front-{i}", room)
-        figures = [*further, *_tables(printed[printed["surface"] == surface])]
+        figures = [*further, *_tables(printed.of(surface))]
         title = str(rows["surface_title"].iloc[0])
         if not spread:
             made.append(Section(title, (), (*first, *second, *figures)))

@@ -29,7 +29,8 @@ PALE = 0.68  # how far the colour of a square is from its method's, towards whit
 
 def sections(material: Material) -> list[Section]:
     """Make the section; [] where no row was timed."""
-    if not derive.is_contender(material.listed).any():
+    timed = derive.is_contender(material.listed)
+    if not timed.any():
         return []
     leading = ties.leaders(material.listed)
     found = material.choices
@@ -50,7 +51,7 @@ def sections(material: Material) -> list[Section]:
         blocks.append(winners_table(material.listed, leading))
     elsewhere = trades_tables.devices(material.listed)
     blocks += [elsewhere] if elsewhere is not None else []
-    several = len(derive.contenders(material.listed, derive.GROUP).drop_duplicates()) > ONE_BY_ONE
+    several = len(material.listed.loc[timed, derive.GROUP].drop_duplicates()) > ONE_BY_ONE
     if several and len(leading):
         details.append(wins_table(leading))
     details += [Text(f"{ties.RULE}."), *([winners_table(material.listed, leading)] if len(found) > FEW else [])]

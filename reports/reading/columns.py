@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from array import array as numbers_of
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -108,10 +109,13 @@ class Columns:
         kind = _TYPES[name] if name not in _CODED else pa.dictionary(pa.int32(), pa.string())
         if kind == pa.string():
             kind = pa.large_string()  # all of them may have more than 2³¹ bytes
-        chunks: list[pa.Array] = []
-        for piece in self.pieces:
+
+        def chunks_of(piece: Piece) -> list[pa.Array]:
             found = piece.column(name) if isinstance(piece, pa.Table) else _read(piece, name)
-            chunks += found.cast(kind).chunks
+            return list(found.cast(kind).chunks)
+
+        with ThreadPoolExecutor(pa.cpu_count()) as beside:
+            chunks = [chunk for made in beside.map(chunks_of, self.pieces) for chunk in made]
         whole = pa.chunked_array(chunks, kind).unify_dictionaries().combine_chunks()
         whole = whole if isinstance(whole, pa.Array) else whole.chunk(0) if whole.num_chunks else pa.array([], kind)
         return whole if self._order is None else whole.take(pa.array(self._order))

@@ -4,9 +4,11 @@
 thrown away, and reports it; `python -m tests.benchmarks.report_speed runs/quick runs/papers` reports these. Printed are
 the seconds that making up the rows and their sealed texts took, which in a real run is the work of its cells, those of
 storing them and those of the report; the seconds of a core that storing and report took, which others on the machine
-change less; and the report's memory. Each report is made in a process of its own. Of several sizes the growth of the
-seconds of a core is told: a line by least squares of the relative deviations, and the exponent between the two largest
-sizes, which is 1 where time grows with the rows. Nothing here fails for being slow.
+change less; and the memory of all of the report's processes together. Each report is made in a process of its own. Of
+several sizes the growth of the seconds of a core is told: a line by least squares of the relative deviations, and the
+exponent between the two largest sizes, which is 1 where time grows with the rows. So that it is that of one way of
+storing, all sizes of a command lie in parts where the largest has more rows than files are kept for, and else in files.
+Nothing here fails for being slow.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from pathlib import Path
 
 import numpy as np
 
+from harness import memory
 from harness.contract import digest
 from harness.results import compaction, sealed
 from harness.results.store import Row
@@ -33,14 +36,15 @@ from tests.synthetic_run import arrays, cell
 
 SURFACES = 100
 PRECISIONS = ("float32", "float64")
-PICTURED = 10  # settings whose rows have arrays, of a run with more rows than files are kept for
+LOOK_SECONDS = 0.1  # between two looks at the memory
+PICTURED = 10  # settings whose rows have arrays, of a run whose rows lie in parts
 
 
-def make(folder: Path, rows: int) -> tuple[float, float]:
+def make(folder: Path, rows: int, packed: bool) -> tuple[float, float]:
     """Write a run of `rows` rows, with arrays; return the seconds that making them up took, and those of a core.
 
     The rows are of SURFACES surfaces, two precisions, one device, and as many settings of the same five variants as
-    that takes.
+    that takes. They lie in parts where they are `packed`, else in files.
     """
     (folder / "cells").mkdir(parents=True)
     (folder / "arrays").mkdir()
@@ -50,8 +54,8 @@ def make(folder: Path, rows: int) -> tuple[float, float]:
     for (variant, surface, precision), model in models.items():
         if model["arrays"]:
             np.savez(folder / f"{variant} {surface} {precision}.npz", **arrays(model))
-    made = _Timed(_rows(models, surfaces, rows, settings))
-    store = _parts if rows > compaction.MOST else _files
+    made = _Timed(_rows(models, surfaces, rows, range(settings), PICTURED if packed else settings))
+    store = _parts if packed else _files
     plan = json.dumps(synthetic_run.plan(list(store(folder, made))))
     (folder / "plan.json").write_bytes(sealed.with_seal(f"{{\n{plan[1:]}"))
     return made.seconds, made.of_core
@@ -82,15 +86,16 @@ class _Timed(Iterator[_Made]):
             self.of_core += time.process_time() - of_core
 
 
-def _rows(models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: int) -> Iterator[_Made]:
-    """Make up each row; of a run with more rows than files are kept for the first PICTURED settings have arrays."""
-    pictured = PICTURED if rows > compaction.MOST else settings
+def _rows(
+    models: dict[tuple[str, str, str], Row], surfaces: list[str], rows: int, settings: range, pictured: int
+) -> Iterator[_Made]:
+    """Make up each row; those of the first `pictured` settings have arrays."""
     for i in range(min(SURFACES, max(1, rows // (len(PRECISIONS) * len(synthetic_run.VARIANTS))))):
         like = surfaces[i % len(surfaces)]
         for (variant, surface, precision), model in models.items():
             if surface == like:
                 name = f"{variant} {surface} {precision}"
-                yield from _settings(model, f"{like}_{i}", range(settings), pictured, name)
+                yield from _settings(model, f"{like}_{i}", settings, pictured, name)
 
 
 def _settings(model: Row, surface: str, settings: range, pictured: int, name: str) -> Iterator[_Made]:
@@ -141,16 +146,23 @@ def _link(folder: Path, made: _Made) -> None:
 
 
 def measure(run: Path, output: Path, *options: str) -> tuple[float, float, float]:
-    """Report a run in a process of its own; return its seconds, with those of starting, those of a core, and its GB."""
-    before, of_cores = time.perf_counter(), _of_children()
-    told = subprocess.run(
-        [sys.executable, "-m", "tests.benchmarks.report_speed", "--one", str(run), str(output), *options],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    """Report a run in a process of its own; return its seconds, with those of starting, those of a core, and its GB.
+
+    The GB are those of all of the report's processes together.
+    """
+    before, of_cores, most = time.perf_counter(), _of_children(), 0
+    command = [sys.executable, "-m", "tests.benchmarks.report_speed", "--one", str(run), str(output), *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as report:
+        watch = memory.Watch(report.pid)
+        while report.poll() is None:
+            most = max(most, watch.held())
+            time.sleep(LOOK_SECONDS)
+        told = report.stdout.read() if report.stdout else ""
     seconds = time.perf_counter() - before
-    return seconds, _of_children() - of_cores, float(told.stdout.split()[-1]) * 1024 / 1e9
+    if report.returncode:
+        raise subprocess.CalledProcessError(report.returncode, command, told)
+    alone = int(told.split()[-1]) * 1024  # its own peak, which two looks may have missed
+    return seconds, _of_children() - of_cores, max(most, alone) / 1e9
 
 
 def _of_children() -> float:
@@ -173,24 +185,26 @@ def _main(arguments: list[str]) -> None:
         f"{'run':15} {'made':>7} {'stored':>7} {'report':>7} {'of a core':>10} {'GB':>6} {'PDF, MB':>8} {'HTML, MB':>9}"
     )
     spent: dict[int, float] = {}
-    for argument in arguments or ["1000"]:
+    arguments = arguments or ["1000"]
+    packed = any(argument.isdigit() and int(argument) > compaction.MOST for argument in arguments)
+    for argument in arguments:
         with tempfile.TemporaryDirectory() as scratch:
             run, told, before = Path(argument), f"{'-':>7} {'-':>7}", 0.0
             if argument.isdigit():
                 run, since, of_core = Path(scratch, "run"), time.perf_counter(), time.process_time()
-                made, made_of_core = make(run, int(argument))
+                made, made_of_core = make(run, int(argument), packed)
                 told = f"{made:7.1f} {time.perf_counter() - since - made:7.1f}"
                 before = time.process_time() - of_core - made_of_core
             output = Path(scratch, "made")
-            seconds, of_cores, memory = measure(run, output)
+            seconds, of_cores, held = measure(run, output)
             of_cores += before
             pdf, html = (output.joinpath(f"report.{form}").stat().st_size / 1e6 for form in ("pdf", "html"))
         name = run.name
         if argument.isdigit():
             name, spent[int(argument)] = f"{int(argument):,} rows", of_cores
-        print(f"{name:15} {told} {seconds:7.1f} {of_cores:10.1f} {memory:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
+        print(f"{name:15} {told} {seconds:7.1f} {of_cores:10.1f} {held:6.2f} {pdf:8.1f} {html:9.1f}", flush=True)
     if len(spent) > 1:
-        print(growth(spent))
+        print(f"stored in {'parts' if packed else 'files'}: {growth(spent)}")
 
 
 def growth(spent: Mapping[int, float]) -> str:
@@ -200,7 +214,7 @@ def growth(spent: Mapping[int, float]) -> str:
     off = np.abs(np.polyval([each, fixed], rows) / seconds - 1.0).max()
     exponent = np.log(seconds[-1] / seconds[-2]) / np.log(rows[-1] / rows[-2])
     return (
-        f"stored and reported, of a core: {fixed:.0f} s and {1e3 * each:.3f} ms a row, within {off:.0%} of each; "
+        f"storing and reporting take of a core {fixed:.0f} s and {1e3 * each:.3f} ms a row, within {off:.0%} of each; "
         f"from {rows[-2]:,.0f} to {rows[-1]:,.0f} rows it grows as the rows to the power of {exponent:.2f}"
     )
 
