@@ -25,7 +25,7 @@ from pathlib import Path
 from harness.contract import Language, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, NODES, POWERS, TABLES, half_side, interpolation, remainder_factors
 from harness.kernels.sections import Lanes, TileStage, files, literal, table_section
-from harness.kernels.tile_polynomials import macros, to_control, to_powers
+from harness.kernels.tile_polynomials import chosen as chosen_text, macros, to_control, to_powers
 from harness.kernels.tile_stages import StageText, lists
 
 STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
@@ -66,7 +66,7 @@ def stage_program(
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
         own = _lane_sections(stage, precision, language, form)
         own += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
-        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form)]
+        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form, stage)]
     return stated.program(("surface_value",), shape, own)
 
 
@@ -75,7 +75,7 @@ def _lane_sections(stage: TileStage, precision: Precision, language: Language, l
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
         return files(*head, *lists(language), "tiles/alone.glsl", f"tiles/blocks.{language}")
-    first, exchange = [], "exchange_own.glsl"
+    first, exchange = ["tiles/lanes_in_turn.glsl"] if stage == "isolate" else [], "exchange_own.glsl"
     if _exchanges(stage, lanes) and lanes == "group":
         first, exchange = [f"tiles/memory.{language}"], "exchange_group.glsl"
     elif _exchanges(stage, lanes):
@@ -151,7 +151,7 @@ def wide_value(surface: Surface, precision: Precision, language: Language) -> Se
     return Section(f"generated: surface {surface.name}, wide_value", text)
 
 
-def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[Section]:
+def _lane_tables(precision: Precision, language: Language, form: Lanes, stage: TileStage) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
@@ -168,4 +168,14 @@ def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
         made[name] = across + down
-    return [table_section(name, values, precision, language) for name, values in made.items()]
+    if form != "own" or stage != "isolate":
+        return [table_section(name, values, precision, language) for name, values in made.items()]
+    chosen = {}
+    for name in ("NODE_X", "NODE_Y"):
+        del made[name]
+        index = "work.column" if name == "NODE_X" else "work.row"
+        chosen[name] = chosen_text(index, [literal(v, precision, language) for v in NODES])
+    lines = [f"#define {name}(k) {text}" for name, text in chosen.items()]
+    lines += [f"#define {name}(k) {name}_TABLE[16 * (k) + OWN_LANE]" for name in made]
+    tables = [table_section(f"{name}_TABLE", values, precision, language) for name, values in made.items()]
+    return [*tables, Section("generated: rows of lanes", "\n".join(lines))]
