@@ -22,7 +22,8 @@ arrays in registers where loops index them.
 
 And on what isolation keeps of a tile (glsl/tiles/nets_*.glsl), where one work item has all its lanes:
 
-    KEEP_LANE(net, c)       puts a lane's coefficients into the net
+    KEEP_NUMBER(lanes, v)   puts v into the place of the lane that is being done
+    NUMBER(lanes)           the number in that place
     FIND_SPREAD(net, v)     v = the largest distance of a lane's coefficients from those of the first lane
     CONTROL(net)            makes the nodes' coefficients those of the bicubic's control net
     TO_CUBIC(lanes)         makes the nodes' numbers the coefficients of 1, x, x², x³ in both directions
@@ -38,7 +39,7 @@ from math import comb
 
 from harness.contract import Language, Precision, Section, Surface
 from harness.kernels.fourths import NODES
-from harness.kernels.sections import Lanes, literal
+from harness.kernels.sections import Lanes, TileStage, literal
 
 Row = Sequence[Fraction]
 
@@ -68,8 +69,11 @@ def _inverse(matrix: Sequence[Row]) -> list[Row]:
     return [[Fraction(int(v.p), int(v.q)) for v in row] for row in made.inv().tolist()]
 
 
-def macros(surface: Surface, precision: Precision, language: Language, lanes: Lanes) -> Section:
-    """Return struct Poly and the macros that are listed above, for the surface's degree."""
+def macros(surface: Surface, precision: Precision, language: Language, lanes: Lanes, stage: TileStage) -> Section:
+    """Return struct Poly and the macros that are listed above, for the surface's degree.
+
+    Those on what isolation keeps are for the stage that isolates. `lanes` says who has the lanes in this stage.
+    """
     from harness.kernels.fitting import fit_tables, inverse
 
     assert surface.degree is not None
@@ -109,10 +113,10 @@ def macros(surface: Surface, precision: Precision, language: Language, lanes: La
         ("LAST(c)", f"c.k{n}"),
         ("CONSTANT(c, v)", " ".join(f"c.k{j} = v;" for j in ks)),
     ]
-    if lanes == "own":
+    if lanes == "own" and stage == "isolate":
         made += _own_net(n, number)
-        struct += f"\nSTRUCT(Lanes) struct Lanes {{ real {', '.join(f'v{k}' for k in range(16))}; }};"
-        values.append(("NUMBER(lanes)", _own_lane([f"lanes.v{k}" for k in range(16)])))
+        rows = [chosen("work.column", [f"lanes.v{4 * row + x}" for x in range(4)]) for row in range(4)]
+        values.append(("NUMBER(lanes)", chosen("work.row", rows)))
         values.append(("LARGEST_FALL(c)", _paired("max", [f"c.k{j}" for j in range(n)])))
     elif lanes == "group":
         made.append(("TRANSFORM(c, rows)", _exchanged_transform(n)))
@@ -214,12 +218,6 @@ def _exchanged_transform(n: int) -> list[str]:
     return lines
 
 
-def _own_lane(places: Sequence[str]) -> str:
-    """Return the text that chooses among sixteen places that of the lane that a work item does."""
-    rows = [chosen("work.column", places[4 * row : 4 * row + 4]) for row in range(4)]
-    return chosen("work.row", rows)
-
-
 def chosen(index: str, places: Sequence[str]) -> str:
     """Return the text that chooses among four places by an index."""
     a, b, c, d = places
@@ -243,20 +241,23 @@ def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str
         bundled.append(f"b.fall.k{j} = {_paired('max', falls)};")
     bundled.append(f"b.fall.k{n} = real(0);")
     control = [line for j in ks for line in _mixed([at(k, j) for k in lanes], to_control(), number, differences=True)]
-    kept = [f"lanes.v{k} = OWN_LANE == {k} ? n_ : lanes.v{k};" for k in lanes]
+    numbers = [f"lanes.v{k}" for k in lanes]
+    kept = [f"{place} = OWN_LANE == {k} ? number_ : {place};" for k, place in enumerate(numbers)]
     fall = _halve(n - 1, number) + [f"{half}.k{j} = 0.5 * {half}.k{j};" for half in ("near", "far") for j in range(n)]
     return [
-        ("KEEP_NUMBER(lanes, number)", ["real n_ = number;", *kept]),
+        ("KEEP_NUMBER(lanes, v)", ["real number_ = v;", *kept]),
         ("FIND_SPREAD(net, spread_)", spread),
         ("CONTROL(net)", control),
-        ("TO_CUBIC(lanes)", _mixed([f"lanes.v{k}" for k in lanes], to_powers(), number, differences=False)),
+        ("TO_CUBIC(lanes)", _mixed(numbers, to_powers(), number, differences=False)),
         ("BUNDLED(net, b)", bundled),
         ("HALVE_FALL(near, far)", [*fall, f"far.k{n} = real(0);"]),
     ]
 
 
-def _mixed(places: Sequence[str], matrix: Sequence[Row], number: Callable[[float], str], differences: bool) -> list[str]:
-    """Return statements that apply a 4 by 4 matrix in both directions to the sixteen numbers of a net from `at` on.
+def _mixed(
+    places: Sequence[str], matrix: Sequence[Row], number: Callable[[float], str], differences: bool
+) -> list[str]:
+    """Return statements that apply a 4 by 4 matrix in both directions to the sixteen numbers at `places`.
 
     If `differences`, the sum of each of the matrix's rows is 1, and it is applied as TRANSFORM_ONE does.
     """

@@ -14,8 +14,6 @@
 #ifndef OWN_LANE
 #define OWN_LANE work.lane
 #endif
-#ifndef lane_row
 #define lane_row(name, k) name[16 * (k) + OWN_LANE]
-#endif
 #define wide_advanced(o, t, d) advanced(o, t, d)
 #define fourth_row(work, place) fourth_at(work, (place) + OWN_LANE)

@@ -1,8 +1,14 @@
 // A tile's polynomials where one work item has all sixteen: halving works on three that bound them. `lo` and `hi` have
 // the least and the largest of their coefficients, and `fall` the largest of the differences of neighbouring ones. All
 // three bound the halves too, since halving takes means.
+// llvmpipe takes a private array's numbers one by one for each lane of its vectors, unless all its indices are known to
+// the compiler. So a net is a queue of rows, whose columns are known (lanes_in_turn.glsl), and Lanes is no array.
 STRUCT(NetRow) struct NetRow { Poly c[4]; };
 STRUCT(Net) struct Net { NetRow r0; NetRow r1; NetRow r2; NetRow r3; };
+STRUCT(Lanes) struct Lanes {
+    real v0; real v1; real v2; real v3; real v4; real v5; real v6; real v7;
+    real v8; real v9; real v10; real v11; real v12; real v13; real v14; real v15;
+};
 STRUCT(Bundle) struct Bundle { Poly lo; Poly hi; Poly fall; };
 #define KEEP_LANE(net, p) { \
     if (work.column == 0) { net.r0 = net.r1; net.r1 = net.r2; net.r2 = net.r3; } \

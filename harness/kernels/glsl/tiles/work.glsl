@@ -17,7 +17,8 @@ uniform int tile;
 uniform int level;
 uniform int ratio;
 
-// The lane that a work item has, and which of the `items` that take tiles it is, or its group.
+// The lane that a work item has, or the row and column of that which it does in turn, and which of the `items` that take
+// tiles it is, or its group.
 struct Work { int size; int tile; int level; int ratio; int lane; int row; int column; int item; int items; };
 
 // What an entry hands to a stage; TILE_ITEMS work items share a tile or a pixel.
