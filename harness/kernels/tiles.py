@@ -12,8 +12,9 @@ behind the operations of glsl/tiles/{lanes,exchange,nets,blocks,tiles}_*:
                                                                                        do is left to the last stage
     warp    the same                   the same, and exchange them without memory:     as group
                                        NVIDIA's OpenCL
-    own     the same                   a work item has a tile, does its lanes in turn  as group
-                                       and halves three polynomials that bound all
+    own     the same                   a work item has a tile, does its lanes in       as group
+                                       turn, row by row, and halves three polynomials
+                                       that bound all
 
 harness.kernels.tile_polynomials generates what a polynomial's degree decides.
 """

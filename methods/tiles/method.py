@@ -101,6 +101,19 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
                                                             surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
                                                             0.5 times
+
+And on opengl:llvmpipe, where the stage that isolates is what takes long to compile: processor time of its compiler,
+interleaved, the least of two or three on a busy machine.
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    lanes are done row by row, so that Mesa unrolls four    torus 3.6 to 2.4 s, sextic 5.2 to 2.8, 16-ball 8.0  yes
+      turns of the loops over lanes in place of sixteen,    to 6.7, a dense polynomial of degree 8 about 16 to
+      and what lanes list is no array                       5; isolation at 512x512 0.89 to 1.1 times the time
+    loops over lanes that are not unrolled at all           isolation of the 16-ball compiles in 22 s: arrays   no
+                                                            that are indexed at run time; frames 1.12 to 1.35
+    the transform across is done as rows are sampled        no sooner compiled                                  no
+    minima and maxima by comparisons                        no sooner compiled                                  no
 """
 
 from collections.abc import Mapping
