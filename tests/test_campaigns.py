@@ -24,6 +24,7 @@ from tests.made_formulas import largest
 pytestmark = pytest.mark.usefixtures("no_cache")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", frame.names())
 def test_the_small_part_of_a_campaign(name: str, tmp_path: Path) -> None:
     campaign = frame.campaign_named(name)

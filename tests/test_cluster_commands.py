@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
 import subprocess
 import sys
+import time
 from importlib.metadata import distribution
 from multiprocessing import Pipe
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import dask
@@ -106,6 +109,61 @@ def test_a_job_of_slurm_runs_the_worker_with_what_the_file_says(tmp_path: Path) 
     line = next(line for line in script.splitlines() if "harness.cli worker" in line)
     parsed = _parsed(line.split("harness.cli ")[1].split())
     assert parsed.address == "tcp://lab1:8786" and parsed.cores == 8 and parsed.device == ["opencl:nvidia"]
+
+
+def stand_in(folder: Path, name: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a program of Slurm's, a text of shell, before all others."""
+    (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+    (folder / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(folder), prepend=os.pathsep)
+
+
+def test_what_slurm_refuses_is_told_before_anything_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "slurm.toml"
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(FirsthitError, match=r"slurm.toml: jobs are queued by sbatch, which does not run here: No such"):
+        slurm._try_out(path, "#!/bin/sh\n")
+    monkeypatch.undo()
+    stand_in(
+        tmp_path,
+        "sbatch",
+        'test "$1" = --test-only && echo "Invalid partition name specified" >&2; exit 1',
+        monkeypatch,
+    )
+    with pytest.raises(FirsthitError, match=r"slurm.toml: Slurm refuses the job: Invalid partition name specified$"):
+        slurm._try_out(path, "#!/bin/sh\n")
+    stand_in(tmp_path, "sbatch", "exit 0", monkeypatch)
+    slurm._try_out(path, "#!/bin/sh\n")
+
+
+class Jobs:
+    """What is used of a Dask cluster whose workers are jobs: `asked` is what scale was called with."""
+
+    def __init__(self, count: int) -> None:
+        self.workers: dict[str, SimpleNamespace] = {}
+        self.asked: list[int] = []
+        self.scale(count)
+
+    def scale(self, jobs: int) -> None:
+        self.asked.append(jobs)
+        self.workers.update({str(n): SimpleNamespace(job_id=str(n)) for n in range(len(self.workers), jobs)})
+
+
+def test_for_a_job_of_slurm_that_ends_another_one_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(slurm, "LOOK_SECONDS", 0.01)
+    monkeypatch.setattr(slurm, "MOST_ENDED", 2)
+    stand_in(tmp_path, "squeue", f"cat {tmp_path}/queue || exit 1", monkeypatch)
+    cluster, told = Jobs(2), list[str]()
+    with slurm._replaced(cluster, 2, told.append):
+        time.sleep(0.2)  # squeue fails, which says nothing of jobs
+        assert cluster.asked == [2] and not told
+        for queue, asked in (("1\n", 3), ("1\n2\n", 3), ("2\n", 4), ("", 6)):
+            (tmp_path / "new").write_text(queue)
+            (tmp_path / "new").replace(tmp_path / "queue")
+            until(lambda asked=asked: cluster.asked[-1] >= asked)
+        until(lambda: "no further one" in told[-1])
+    assert cluster.asked[:3] == [2, 3, 4] and len(cluster.asked) < 6
+    assert told[0] == "1 job of Slurm (0) ended; as many others are asked for"
 
 
 def _parsed(words: list[str]) -> object:

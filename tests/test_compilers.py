@@ -154,8 +154,11 @@ PLANTED = {
 }
 
 
-def planted(folder, fault):
-    """Newton's method with a fault that only optimising compilers build: OpenGL's, and OpenCL's unless told not to."""
+def planted(folder, fault, always=""):
+    """Newton's method with a fault that only optimising compilers build: OpenGL's, and OpenCL's unless told not to.
+
+    The fault `always` is built by all.
+    """
     newton = find_methods().get("newton").folder
     mine = folder / "planted"
     mine.mkdir()
@@ -163,9 +166,24 @@ def planted(folder, fault):
     kernel = (newton / "kernel.glsl").read_text().replace("Hit first_hit(", "Hit right_hit(")
     (mine / "kernel.glsl").write_text(
         f"{kernel}\nHit first_hit(Ray ray, real t0, real t1) {{\n    Hit hit = right_hit(ray, t0, t1);\n"
-        f"#if defined(__OPTIMIZE__) || !defined(__OPENCL_VERSION__)\n    {fault}\n#endif\n    return hit;\n}}\n"
+        f"#if defined(__OPTIMIZE__) || !defined(__OPENCL_VERSION__)\n    {fault}\n#endif\n    {always}\n"
+        "    return hit;\n}\n"
     )
     return folder
+
+
+def rows_of_planted(folder, more=""):
+    """Run the planted method and newton, with further lines of a config: their rows by the methods' names."""
+    config = folder / "t.toml"
+    config.write_text(
+        f'title = "t"\nsurfaces = ["torus"]\nsizes = [256]\ndevices = ["{OPENCL[0]}"]\nprecisions = ["float32"]\n'
+        f"{more}\n"
+        '[[method]]\nname = "planted"\n[[method]]\nname = "newton"\n'
+        "[accuracy]\nsize = 32\n[budget]\nseconds = 0.05\nrepetitions = 3\ninterval = 0.0\n"
+        '[surface.torus]\ndomain = "sphere:1.5"\n'
+    )
+    cli.main(["--plugins", str(folder), "run", str(config), "--runs", str(folder / "runs")])
+    return {row["method"]: row for row in Store(folder / "runs" / "t").rows()}
 
 
 @pytest.mark.parametrize("fault", PLANTED.values(), ids=PLANTED.keys())
@@ -192,18 +210,21 @@ def test_nothing_is_drawn_that_was_built_wrongly(tmp_path, capsys):
 @pytest.mark.usefixtures("devices_found_once")
 @pytest.mark.skipif(not OPENCL, reason="no OpenCL device")
 def test_a_row_of_a_program_that_was_built_wrongly_has_failed(tmp_path):
-    folder = planted(tmp_path, PLANTED["misses where it should hit"])
-    config = tmp_path / "t.toml"
-    config.write_text(
-        f'title = "t"\nsurfaces = ["torus"]\nsizes = [32]\ndevices = ["{OPENCL[0]}"]\nprecisions = ["float32"]\n'
-        '[[method]]\nname = "planted"\n[[method]]\nname = "newton"\n'
-        "[accuracy]\nsize = 32\n[budget]\nseconds = 0.05\nrepetitions = 3\ninterval = 0.0\n"
-    )
-    cli.main(["--plugins", str(folder), "run", str(config), "--runs", str(tmp_path / "runs")])
-    rows = {row["method"]: row for row in Store(tmp_path / "runs" / "t").rows()}
+    rows = rows_of_planted(planted(tmp_path, PLANTED["misses where it should hit"]))
     assert rows["newton"]["status"] == "ok"
     assert rows["planted"]["status"] == "failed"
     assert rows["planted"]["reason"].startswith("this device's compiler is at fault")
+
+
+@pytest.mark.usefixtures("devices_found_once")
+@pytest.mark.skipif(not OPENCL, reason="no OpenCL device")
+def test_behind_a_prepass_the_second_build_begins_where_the_first_did(tmp_path):
+    """A method whose answers depend on where it begins goes wrong in both builds, and no compiler is named for it."""
+    place = "vec3 begin = difference(ray_point(ray, t0), DOMAIN_CENTER);"
+    inside = "inner_product(begin, begin) < 0.9 * DOMAIN_RADIUS * DOMAIN_RADIUS"
+    folder = planted(tmp_path, "", f"{place} if ({inside}) return missed(hit);")
+    row = rows_of_planted(folder, 'prepass = ["beams"]')["planted"]
+    assert row["status"] == "ok" and row["accuracy"]["misses"] > 0.05 * row["accuracy"]["rays"]
 
 
 @pytest.mark.parametrize("name", [info.name for info in usable_devices()])

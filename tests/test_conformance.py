@@ -61,7 +61,7 @@ def plugin_for(method: str, surface: surfaces.Surface, precision: Precision, ben
     return plugin
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("surface_name", conformance.TYPICAL)
 @pytest.mark.parametrize("method", METHODS)
@@ -103,7 +103,7 @@ PLACES = [(name, precision) for precision in PRECISIONS for name in DEVICES]
 OTHERS = [(*pair, *place) for pair, place in rotation(_other_pairs(), PLACES)]
 
 
-@pytest.mark.one_in(8)
+@pytest.mark.one_in(16)
 @pytest.mark.parametrize(("method", "surface_name", "device_name", "precision"), OTHERS)
 def test_method_conforms_on_every_other_surface_in_turn(method, surface_name, device_name, precision):
     bench, surface = bench_on(opened(device_name)), surfaces.get(surface_name)

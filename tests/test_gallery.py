@@ -85,7 +85,7 @@ def _turns():
             turn += 1
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize(("name", "method", "device_name", "precision"), list(_turns()) if PLACES else [])
 def test_no_false_hit_on_clear_rays_of_the_gallery(name, method, device_name, precision):
     surface, device = surface_named(name), opened(device_name)
@@ -112,7 +112,7 @@ def claims_in_turn():
     return chosen
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize(("name", "method", "device_name", "precision"), claims_in_turn())
 def test_claims_hold_on_the_gallery(name, method, device_name, precision):
     surface, plugin, bench = surface_named(name), METHODS.get(method), bench_on(opened(device_name))

@@ -56,7 +56,7 @@ def _search(tmp_path, info, surface, methods=METHODS, pictured=False, **wished):
         executor.close()
 
 
-@pytest.mark.one_in(5)
+@pytest.mark.one_in(10)
 @pytest.mark.parametrize("name", FORMULAS)
 def test_the_recommended_variant_holds_on_views_it_was_not_chosen_by(tmp_path, info, name):
     formula, domain = FORMULAS[name]

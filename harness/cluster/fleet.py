@@ -52,11 +52,12 @@ class ClusterFleet:
     """Offer the devices of the cluster that an engine watches; a Fleet of harness.running.
 
     `patience` are the seconds for which devices are waited for at the start; `expected` are the names of those that are
-    known to come.
+    known to come. `to_do` tells people what to do where none comes.
     """
 
-    def __init__(self, engine: Engine, patience: float, expected: Collection[str] = ()) -> None:
+    def __init__(self, engine: Engine, patience: float, expected: Collection[str] = (), to_do: str = "") -> None:
         self.engine, self._patience, self._expected = engine, patience, frozenset(expected)
+        self._to_do = to_do or f"on each machine that is to take part run `firsthit worker {engine.address}`"
         self._named = Named()
 
     @property
@@ -80,11 +81,8 @@ class ClusterFleet:
             raise self.engine.problem or Stopped(2) from None
         places = self.engine.places()
         if not places:
-            told = (
-                f"no worker with a device came to the scheduler {self.engine.address} within {self._patience:.0f} s; "
-                f"on each machine that is to take part run `firsthit worker {self.engine.address}`"
-            )
-            raise FirsthitError(told, exit_code=3)
+            told = f"no worker with a device came to the scheduler {self.engine.address} within {self._patience:.0f} s"
+            raise FirsthitError(f"{told}; {self._to_do}", exit_code=3)
         self._named = named(places, wanted)
         return [info for info, _ in self._named.tried.values()]
 

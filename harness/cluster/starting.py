@@ -50,8 +50,11 @@ def _opened(text: str, wanted: Collection[str], tell: Tell) -> Iterator[ClusterF
         with _local(_count(text), wanted, tell) as fleet:
             yield fleet
     elif text.endswith(".toml"):
-        with slurm.started(Path(text), tell) as (cluster, seconds), _watched(cluster, text, tell) as engine:
-            yield ClusterFleet(engine, seconds)
+        with (
+            slurm.started(Path(text), tell) as (cluster, seconds),
+            _watched(cluster, text, tell, max(seconds, PATIENCE_SECONDS)) as engine,
+        ):
+            yield ClusterFleet(engine, seconds, to_do=slurm.TO_DO)
     else:
         address = checked_address(text, "--cluster")
         with _watched(address, address, tell) as engine:
@@ -75,7 +78,7 @@ def checked_address(text: str, what: str) -> str:
 
 
 @contextlib.contextmanager
-def _watched(address: Any, told: str, tell: Tell) -> Iterator[Engine]:
+def _watched(address: Any, told: str, tell: Tell, patience: float = PATIENCE_SECONDS) -> Iterator[Engine]:
     """Watch the cluster of a scheduler, given by address or as a Dask cluster, for a block."""
 
     def connect() -> Any:
@@ -85,7 +88,7 @@ def _watched(address: Any, told: str, tell: Tell) -> Iterator[Engine]:
         return Client(address, timeout=CONNECT_SECONDS)  # type: ignore[no-untyped-call]
 
     try:
-        engine = Engine(connect, told, tell)
+        engine = Engine(connect, told, tell, patience)
     except OSError as error:
         start = "start one with `dask scheduler`, and on each machine `firsthit worker HOST:PORT`"
         raise FirsthitError(f"no Dask scheduler answers at {told} ({error}); {start}", exit_code=3) from None

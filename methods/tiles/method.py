@@ -33,35 +33,43 @@ only.
 
 **Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
 
-**Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores: `firsthit run
-configs/tiles-1024.toml`. 9,216 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of
-bernstein; newton is wrong on some (450 misses on chmutov's). `largest` is the largest error of tiles over that of
-bernstein on the same rays.
+**Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an AMD processor
+without AVX-512: `firsthit run configs/tiles.toml --device opencl:intel`, one interleaved run of four sizes at f573716,
+nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384 rays of each surface
+are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel; newton is wrong on 1,538.
+`largest` is the largest error of tiles over that of bernstein on the same rays.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
-    clebsch       1.97   4.79       4.15        2.72    2.4             2.1              1.2
-    tangle        2.25   7.01       6.39        5.01    3.1             2.8              0.8
-    torus         2.26   5.33       5.54        2.43    2.4             2.5              1.5
-    calyx         4.73   7.91       7.66        5.45    1.7             1.6              0.8
-    Barth sextic  3.58   10.9       12.8        7.39    3.0             3.6              0.9
-    chmutov       5.68   9.64       14.7        3.91    1.7             2.6              0.9
-    Endraß octic  11.7   22.4       31.4        11.7    1.9             2.7              1.3
-    Barth decic   12.1   26.8       48.6        14.1    2.2             4.0              1.1
-    16-ball       9.49   33.0       94.1        5.45    3.5             9.9              1.0
+    clebsch       5.85   17.1       13.1        8.12    2.92            2.24             0.60
+    tangle        6.17   24.6       20.3        13.0    3.98            3.29             0.50
+    torus         6.24   19.0       16.3        6.87    3.05            2.61             0.53
+    Kummer        12.3   27.9       20.5        12.5    2.27            1.66             0.53
+    flirt         11.4   22.7       18.4        11.8    1.99            1.62             0.99
+    calyx         13.5   29.6       27.6        16.0    2.19            2.05             0.50
+    Barth sextic  13.9   38.1       54.9        19.9    2.74            3.95             1.2
+    Klein bottle  7.73   28.8       42.7        15.9    3.73            5.53             0.99
+    heart         9.14   30.0       45.0        18.0    3.29            4.93             0.99
+    chmutov       15.5   34.6       62.7        11.1    2.23            4.04             0.31
+    Endraß octic  35.3   82.7       130         29.9    2.34            3.69             0.85
+    Barth decic   43.6   107        196         34.6    2.45            4.50             0.58
+    16-ball       50.4   154        464         22.3    3.06            9.19             0.97
 
-In the geometric mean it is 2.4 times as fast as bernstein and 3.1 times as fast as eft_yuksel. The table is of an older
-kernel, on a processor with AVX-512. Two changes have been made since, each measured by interleaved runs on a busy
-machine: bounds are looked up in coarser tables (0.94 times the time in the mean of the nine), and stages divide less
-and use fused multiply-adds (0.96 times the processor time: calyx 0.93, decic 0.98 to 1.01).
+The larger the frame, the more it gains. Geometric means of the thirteen surfaces:
 
-On a processor without AVX-512, on which each method takes two to five times as long, the same config gave at acff067
-2.4 times the speed of bernstein in the geometric mean (1.6 clebsch to 3.6 16-ball) and 3.2 times that of eft_yuksel
-(1.3 clebsch to 11 16-ball); 20 of its 45 cells were told to be noisy. No clear ray of tiles was wrong.
+    pixels     over bernstein  least of them  over eft_yuksel  over newton
+    ---------  --------------  -------------  ---------------  -----------
+    512x512    2.18            1.56           2.60             0.88
+    1024x1024  2.73            1.99           3.36             1.13
+    2048x2048  3.41            2.52           4.19             1.39
+    4096x4096  3.73            2.55           4.78             1.57
+
+Its time grows as the pixels to the power 0.84 in the mean (0.69 Barth decic to 0.93 tangle), bernstein's to the power
+0.97. 147 of the run's 520 cells were told to be noisy: the same config of nine surfaces at 1024x1024
+(configs/tiles-1024.toml) gave 2.41 over bernstein hours before.
 
 What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
-LEANS were chosen on these surfaces in this view.
-Other devices, and frames of other sizes (configs/tiles.toml), have not been measured on a quiet machine.
+LEANS were chosen on nine of these surfaces in this view.
 
 **What was tried** opencl:intel, processor time at 1024x1024, float32, mostly single runs on a busy machine:
 
@@ -101,6 +109,9 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
                                                             surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
                                                             0.5 times
+    packets fitted from the tile's net, by restriction      not built: sampling and fitting each block twice    no
+                                                            makes the packets' stage 1.09 times as long at
+                                                            most, and it is 0.5 of a frame at most
 
 And on opengl:llvmpipe, where the stage that isolates is what takes long to compile: processor time of its compiler,
 interleaved, the least of two or three on a busy machine.
@@ -108,8 +119,9 @@ interleaved, the least of two or three on a busy machine.
     what was tried                                          measured                                            kept
     ------------------------------------------------------  --------------------------------------------------  ----
     lanes are done row by row, so that Mesa unrolls four    torus 3.6 to 2.4 s, sextic 5.2 to 2.8, 16-ball 8.0  yes
-      turns of the loops over lanes in place of sixteen,    to 6.7, a dense polynomial of degree 8 about 16 to
-      and what lanes list is no array                       5; isolation at 512x512 0.89 to 1.1 times the time
+      turns of the loops over lanes in place of sixteen,    to 6.7, the sextic in float64 13 to 6.1, a dense
+      and what lanes list is no array                       polynomial of degree 8 about 16 to 5; isolation at
+                                                            1024x1024 takes 0.76 to 0.94 times the time (medians)
     loops over lanes that are not unrolled at all           isolation of the 16-ball compiles in 22 s: arrays   no
                                                             that are indexed at run time; frames 1.12 to 1.35
     the transform across is done as rows are sampled        no sooner compiled                                  no

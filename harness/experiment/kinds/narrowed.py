@@ -5,18 +5,23 @@ The check lists rays, and narrows them by the prepass of the frame that is timed
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
 from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild
 from harness.accuracy.pixels import pixels_of
-from harness.contract import FirsthitError, Program
+from harness.contract import FirsthitError, Hits, Program
 from harness.devices.messages import Frame
 from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
 from harness.devices.steps import Executor
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
 from harness.experiment.kinds.programs import Programs
-from harness.experiment.kinds.rays import listed_again
 from harness.kernels import prepass
+from harness.kernels.assemble import Language
 from harness.scenes.camera import rays_of
 
 REFUSAL = "a prepass narrows the rays of a camera's pixels, in the stage compute"
@@ -28,9 +33,9 @@ class NarrowedCasting(ViewCasting):
     not_raced = "rays behind a prepass are not raced"
 
     def __init__(
-        self, asked: Asked, check: Program, timed: Program | None, before: Program, former: Programs | None = None
+        self, asked: Asked, check: Program, timed: Program | None, before: Program, *, former: bool = False
     ) -> None:
-        """Take `former` if the programs are another revision's."""
+        """State with `former` that the programs are another revision's."""
         super().__init__(asked, (check,), timed)
         self.before, self.former = before, former
 
@@ -55,12 +60,26 @@ class NarrowedCasting(ViewCasting):
         return Cast(surface, rays, hits, checked.compile_ms, facts, {})
 
     def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
-        return listed_again(self.asked, executor, cast, self.former)
+        """Cast again behind the same prepass, since a method that iterates may answer otherwise from another start."""
+        if self.former:
+            return None
+        cell, pixels = self.cell, pixels_of(self.camera, math.isqrt(len(cast.rays)), self.samples).index
+
+        def programs(language: Language) -> tuple[Program, ...]:
+            before = prepass.program(cell.surface, cell.precision, language)
+            return before, self.asked.program(cell.surface, "rays", language, prepass.parameters())
+
+        def run(device: str, programs: tuple[Program, ...], index: NDArray[np.intp]) -> Hits:
+            before, check = programs
+            frame = NarrowedFrame(before, check, self.camera, self.samples)
+            return executor.check(device, NarrowedCheck(frame, check, cast.rays[index], pixels[index])).answer.hits
+
+        return SecondBuild(cell.device, cell.precision, programs, run)
 
     def with_programs(self, programs: Programs) -> Casting:
         if len(programs.others) != 1:
             raise FirsthitError("that revision does not hand over its prepass")
-        return NarrowedCasting(self.asked, programs.checks[0], programs.timed, programs.others[0], programs)
+        return NarrowedCasting(self.asked, programs.checks[0], programs.timed, programs.others[0], former=True)
 
 
 class Narrowed(Kind):

@@ -126,25 +126,17 @@ class RayCasting(RacedCasting):
         return Cast(surface, rays, hits, checked.compile_ms, {}, {})
 
     def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
-        return listed_again(self.asked, executor, cast, self.former)
+        """Cast the same list again; another revision's kernel, where its programs have a second one."""
+        cell, run = self.cell, with_listed_rays(executor, cast.rays)
+        if self.former is None:
+            return SecondBuild(
+                cell.device, cell.precision, lambda language: (self.asked.program(cell.surface, "rays", language),), run
+            )
+        second = self.former.second
+        return SecondBuild(cell.device, cell.precision, lambda _: (second,), run) if second else None
 
     def with_programs(self, programs: Programs) -> RacedCasting:
         return RayCasting(self.asked, programs.checks[0], programs.timed, programs)
-
-
-def listed_again(asked: Asked, executor: Executor, cast: Cast, former: Programs | None) -> SecondBuild | None:
-    """Return how the cell's kernel casts the rays of `cast` if it is built in a second way.
-
-    The kernel is that of another revision if there are `former` programs; None if these have no second one.
-    """
-    cell = asked.cell
-    run = with_listed_rays(executor, cast.rays)
-    if former is None:
-        return SecondBuild(
-            cell.device, cell.precision, lambda language: (asked.program(cell.surface, "rays", language),), run
-        )
-    second = former.second
-    return SecondBuild(cell.device, cell.precision, lambda _: (second,), run) if second else None
 
 
 class Rays(Kind):
