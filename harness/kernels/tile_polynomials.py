@@ -22,7 +22,8 @@ arrays in registers where loops index them.
 
 And on what isolation keeps of a tile (glsl/tiles/nets_*.glsl), where one work item has all its lanes:
 
-    KEEP_LANE(net, c)       puts a lane's coefficients into the net
+    KEEP_NUMBER(lanes, v)   puts v into the place of the lane that is being done
+    NUMBER(lanes)           the number in that place
     FIND_SPREAD(net, v)     v = the largest distance of a lane's coefficients from those of the first lane
     CONTROL(net)            makes the nodes' coefficients those of the bicubic's control net
     TO_CUBIC(lanes)         makes the nodes' numbers the coefficients of 1, x, x², x³ in both directions
@@ -38,7 +39,7 @@ from math import comb
 
 from harness.contract import Language, Precision, Section, Surface
 from harness.kernels.fourths import NODES
-from harness.kernels.sections import Lanes, literal
+from harness.kernels.sections import Lanes, TileStage, literal
 
 Row = Sequence[Fraction]
 
@@ -68,8 +69,11 @@ def _inverse(matrix: Sequence[Row]) -> list[Row]:
     return [[Fraction(int(v.p), int(v.q)) for v in row] for row in made.inv().tolist()]
 
 
-def macros(surface: Surface, precision: Precision, language: Language, lanes: Lanes) -> Section:
-    """Return struct Poly and the macros that are listed above, for the surface's degree."""
+def macros(surface: Surface, precision: Precision, language: Language, lanes: Lanes, stage: TileStage) -> Section:
+    """Return struct Poly and the macros that are listed above, for the surface's degree.
+
+    Those on what isolation keeps are for the stage that isolates. `lanes` says who has the lanes in this stage.
+    """
     from harness.kernels.fitting import fit_tables, inverse
 
     assert surface.degree is not None
@@ -109,8 +113,10 @@ def macros(surface: Surface, precision: Precision, language: Language, lanes: La
         ("LAST(c)", f"c.k{n}"),
         ("CONSTANT(c, v)", " ".join(f"c.k{j} = v;" for j in ks)),
     ]
-    if lanes == "own":
+    if lanes == "own" and stage == "isolate":
         made += _own_net(n, number)
+        rows = [chosen("work.column", [f"lanes.v{4 * row + x}" for x in range(4)]) for row in range(4)]
+        values.append(("NUMBER(lanes)", chosen("work.row", rows)))
         values.append(("LARGEST_FALL(c)", _paired("max", [f"c.k{j}" for j in range(n)])))
     elif lanes == "group":
         made.append(("TRANSFORM(c, rows)", _exchanged_transform(n)))
@@ -212,43 +218,57 @@ def _exchanged_transform(n: int) -> list[str]:
     return lines
 
 
+def chosen(index: str, places: Sequence[str]) -> str:
+    """Return the text that chooses among four places by an index."""
+    a, b, c, d = places
+    return f"({index} < 2 ? ({index} < 1 ? {a} : {b}) : ({index} < 3 ? {c} : {d}))"
+
+
 def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str]]]:
     """Return the macros on a Net, a Bundle and Lanes of a work item that has all lanes; see nets_own.glsl."""
     ks, lanes = range(n + 1), range(16)
-    spread = [f"spread_ = max(spread_, fabs(net.v[{16 * j + k}] - net.v[{16 * j}]));" for j in ks for k in lanes if k]
+
+    def at(k: int, j: int) -> str:
+        return f"net.r{k // 4}.c[{k % 4}].k{j}"
+
+    spread = [f"spread_ = max(spread_, fabs({at(k, j)} - {at(0, j)}));" for j in ks for k in lanes if k]
     bundled = []
     for j in ks:
-        bundled.append(f"b.lo.k{j} = {_paired('min', [f'net.v[{16 * j + k}]' for k in lanes])};")
-        bundled.append(f"b.hi.k{j} = {_paired('max', [f'net.v[{16 * j + k}]' for k in lanes])};")
+        bundled.append(f"b.lo.k{j} = {_paired('min', [at(k, j) for k in lanes])};")
+        bundled.append(f"b.hi.k{j} = {_paired('max', [at(k, j) for k in lanes])};")
     for j in range(n):
-        falls = [f"net.v[{16 * j + 16 + k}] - net.v[{16 * j + k}]" for k in lanes]
+        falls = [f"{at(k, j + 1)} - {at(k, j)}" for k in lanes]
         bundled.append(f"b.fall.k{j} = {_paired('max', falls)};")
     bundled.append(f"b.fall.k{n} = real(0);")
-    control = [line for j in ks for line in _mixed("net", 16 * j, to_control(), number, differences=True)]
+    control = [line for j in ks for line in _mixed([at(k, j) for k in lanes], to_control(), number, differences=True)]
+    numbers = [f"lanes.v{k}" for k in lanes]
+    kept = [f"{place} = OWN_LANE == {k} ? number_ : {place};" for k, place in enumerate(numbers)]
     fall = _halve(n - 1, number) + [f"{half}.k{j} = 0.5 * {half}.k{j};" for half in ("near", "far") for j in range(n)]
     return [
-        ("KEEP_LANE(net, c)", [f"net.v[{16 * j} + work.lane] = c.k{j};" for j in ks]),
+        ("KEEP_NUMBER(lanes, v)", ["real number_ = v;", *kept]),
         ("FIND_SPREAD(net, spread_)", spread),
         ("CONTROL(net)", control),
-        ("TO_CUBIC(lanes)", _mixed("lanes", 0, to_powers(), number, differences=False)),
+        ("TO_CUBIC(lanes)", _mixed(numbers, to_powers(), number, differences=False)),
         ("BUNDLED(net, b)", bundled),
         ("HALVE_FALL(near, far)", [*fall, f"far.k{n} = real(0);"]),
     ]
 
 
-def _mixed(name: str, at: int, matrix: Sequence[Row], number: Callable[[float], str], differences: bool) -> list[str]:
-    """Return statements that apply a 4 by 4 matrix in both directions to the sixteen numbers of a net from `at` on.
+def _mixed(
+    places: Sequence[str], matrix: Sequence[Row], number: Callable[[float], str], differences: bool
+) -> list[str]:
+    """Return statements that apply a 4 by 4 matrix in both directions to the sixteen numbers at `places`.
 
     If `differences`, the sum of each of the matrix's rows is 1, and it is applied as TRANSFORM_ONE does.
     """
 
-    def row(x: int, places: Sequence[str]) -> str:
-        terms = [(number(float(matrix[x][x ^ i])), places[x ^ i]) for i in range(4)]
+    def row(x: int, of: Sequence[str]) -> str:
+        terms = [(number(float(matrix[x][x ^ i])), of[x ^ i]) for i in range(4)]
         if not differences:
             return " + ".join(f"{weight} * {place}" for weight, place in terms)
-        return f"{places[x]} + ({' + '.join(f'{weight} * ({place} - {places[x]})' for weight, place in terms[1:])})"
+        return f"{of[x]} + ({' + '.join(f'{weight} * ({place} - {of[x]})' for weight, place in terms[1:])})"
 
-    net = [[f"{name}.v[{at + 4 * y + x}]" for x in range(4)] for y in range(4)]
+    net = [places[4 * y : 4 * y + 4] for y in range(4)]
     half = [[f"h{4 * y + x}_" for y in range(4)] for x in range(4)]  # by columns
     across = [f"real {half[x][y]} = {row(x, net[y])};" for y in range(4) for x in range(4)]
     down = [f"{net[y][x]} = {row(y, half[x])};" for y in range(4) for x in range(4)]

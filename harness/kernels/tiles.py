@@ -12,8 +12,9 @@ behind the operations of glsl/tiles/{lanes,exchange,nets,blocks,tiles}_*:
                                                                                        do is left to the last stage
     warp    the same                   the same, and exchange them without memory:     as group
                                        NVIDIA's OpenCL
-    own     the same                   a work item has a tile, does its lanes in turn  as group
-                                       and halves three polynomials that bound all
+    own     the same                   a work item has a tile, does its lanes in       as group
+                                       turn, row by row, and halves three polynomials
+                                       that bound all
 
 harness.kernels.tile_polynomials generates what a polynomial's degree decides.
 """
@@ -25,7 +26,7 @@ from pathlib import Path
 from harness.contract import Language, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, NODES, POWERS, TABLES, half_side, interpolation, remainder_factors
 from harness.kernels.sections import Lanes, TileStage, files, literal, table_section
-from harness.kernels.tile_polynomials import macros, to_control, to_powers
+from harness.kernels.tile_polynomials import chosen, macros, to_control, to_powers
 from harness.kernels.tile_stages import StageText, lists
 
 STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
@@ -65,8 +66,8 @@ def stage_program(
     if stage != "rest":
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
         own = _lane_sections(stage, precision, language, form)
-        own += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
-        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form)]
+        own += [wide_value(surface, precision, language), macros(surface, precision, language, held, stage)]
+        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form, stage)]
     return stated.program(("surface_value",), shape, own)
 
 
@@ -80,7 +81,8 @@ def _lane_sections(stage: TileStage, precision: Precision, language: Language, l
         first, exchange = [f"tiles/memory.{language}"], "exchange_group.glsl"
     elif _exchanges(stage, lanes):
         first, exchange = [f"tiles/exchange_warp_{precision}.{language}"], f"exchange_warp.{language}"
-    work = (*lists(language), f"tiles/{exchange}", "tiles/blocks_one.glsl")
+    turns = ["tiles/lanes_in_turn.glsl"] if _in_turn(stage, lanes) else []
+    work = (*lists(language), f"tiles/{exchange}", *turns, "tiles/blocks_one.glsl")
     return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
@@ -90,12 +92,17 @@ def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
         return ["tiles/nets_shared.glsl"]
     if _exchanges(stage, lanes):
         return ["tiles/nets_shared.glsl", "tiles/tiles_group.glsl"]
-    return ["tiles/nets_own.glsl", "tiles/alone.glsl", "tiles/tiles_own.glsl"]
+    return ["tiles/nets_own.glsl", "tiles/alone.glsl", "tiles/tiles_own.glsl"] if _in_turn(stage, lanes) else []
 
 
 def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
     """Tell whether a stage's work items exchange numbers."""
     return lanes in ("group", "warp") and stage == "isolate"
+
+
+def _in_turn(stage: TileStage, lanes: Lanes) -> bool:
+    """Tell whether a stage's work items do a tile's lanes in turn."""
+    return lanes == "own" and stage == "isolate"
 
 
 def _shape(
@@ -151,13 +158,14 @@ def wide_value(surface: Surface, precision: Precision, language: Language) -> Se
     return Section(f"generated: surface {surface.name}, wide_value", text)
 
 
-def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[Section]:
+def _lane_tables(precision: Precision, language: Language, form: Lanes, stage: TileStage) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
     direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its
     node's place.
-    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
+    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives. Where a work item does the
+    lanes in turn, a row is a macro that reads its table, and a node's place follows from its column or row.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     width = block_width(form)
@@ -168,4 +176,11 @@ def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
         made[name] = across + down
-    return [table_section(name, values, precision, language) for name, values in made.items()]
+    if not _in_turn(stage, form):
+        return [table_section(name, values, precision, language) for name, values in made.items()]
+    places = [literal(place, precision, language) for place in NODES]
+    texts = {"NODE_X": chosen("work.column", places), "NODE_Y": chosen("work.row", places)}
+    read = {name: texts.get(name, f"{name}_TABLE[16 * (k) + OWN_LANE]") for name in made}
+    tables = {f"{name}_TABLE": values for name, values in made.items() if name not in texts}
+    rows = Section("generated: rows of lanes", "\n".join(f"#define {name}(k) {text}" for name, text in read.items()))
+    return [*(table_section(name, values, precision, language) for name, values in tables.items()), rows]

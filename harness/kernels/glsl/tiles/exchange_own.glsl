@@ -1,6 +1,4 @@
 // No lane asks another one: a work item does a tile's lanes in turn, or each lane goes its own way.
-#define EACH_LANE for (work.lane = 0; work.lane < 16; work.lane++)
-#define FIRST_TURN (work.lane == 0)
 #define most(v) (v)
 #define total(v) (v)
 #define least(v) (v)

@@ -4,9 +4,9 @@
 void list_single(Work work, int cell, Lanes root, Lanes slope, real start, real stop, bool whole, int spent,
                  real lean_x, real lean_y) {
     int record = next_single(work, cell);
-    for (int k = 0; k < 16; k++) {
-        enter(work, record + k, root.v[k]);
-        enter(work, record + 16 + k, slope.v[k]);
+    EACH_LANE {
+        enter(work, record + OWN_LANE, NUMBER(root));
+        enter(work, record + 16 + OWN_LANE, NUMBER(slope));
     }
     enter_piece(work, record + 32, start, stop, whole, spent, lean_x, lean_y);
 }

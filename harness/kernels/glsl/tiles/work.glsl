@@ -17,12 +17,13 @@ uniform int tile;
 uniform int level;
 uniform int ratio;
 
-// The lane that a work item has, and which of the `items` that take tiles it is, or its group.
-struct Work { int size; int tile; int level; int ratio; int lane; int item; int items; };
+// The lane that a work item has, or the row and column of that which it does in turn, and which of the `items` that take
+// tiles it is, or its group.
+struct Work { int size; int tile; int level; int ratio; int lane; int row; int column; int item; int items; };
 
 // What an entry hands to a stage; TILE_ITEMS work items share a tile or a pixel.
-#define WORK Work(size, tile, level, ratio, int(gl_GlobalInvocationID.x) % 16, int(gl_GlobalInvocationID.x) / TILE_ITEMS, \
-                  int(gl_NumWorkGroups.x) * TILE_GROUP / TILE_ITEMS)
+#define WORK Work(size, tile, level, ratio, int(gl_GlobalInvocationID.x) % 16, 0, 0, \
+                  int(gl_GlobalInvocationID.x) / TILE_ITEMS, int(gl_NumWorkGroups.x) * TILE_GROUP / TILE_ITEMS)
 
 real camera_at(Work work, int place) { return real(camera[place]); }
 int counted(Work work, int counter) { return counts[counter]; }
