@@ -113,15 +113,15 @@ LEANS were chosen on nine of these surfaces in this view.
                                                             makes the packets' stage 1.09 times as long at
                                                             most, and it is 0.5 of a frame at most
 
-And on opengl:llvmpipe, where the stage that isolates is what takes long to compile: processor time of its compiler,
-interleaved, the least of two or three on a busy machine.
+And on opengl:llvmpipe, where the stage that isolates is what takes long to compile: processor time of its compiler on a
+busy machine, torus, sextic and 16-ball the least of two interleaved runs, the others single runs.
 
     what was tried                                          measured                                            kept
     ------------------------------------------------------  --------------------------------------------------  ----
     lanes are done row by row, so that Mesa unrolls four    torus 3.6 to 2.4 s, sextic 5.2 to 2.8, 16-ball 8.0  yes
-      turns of the loops over lanes in place of sixteen,    to 6.7, the sextic in float64 13 to 6.1, a dense
+      turns of the loops over lanes in place of sixteen,    to 6.7 or no gain, float64 sextic 13 to 6.1, dense
       and what lanes list is no array                       polynomial of degree 8 about 16 to 5; isolation at
-                                                            1024x1024 takes 0.76 to 0.94 times the time (medians)
+                                                            1024x1024 takes 0.76 to 0.94 times the time
     loops over lanes that are not unrolled at all           isolation of the 16-ball compiles in 22 s: arrays   no
                                                             that are indexed at run time; frames 1.12 to 1.35
     the transform across is done as rows are sampled        no sooner compiled                                  no
