@@ -7,7 +7,6 @@ import importlib.util
 import math
 import shlex
 import subprocess
-import tempfile
 import threading
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
@@ -108,14 +107,11 @@ def options(asked: Asked) -> dict[str, Any]:
 
 def _try_out(path: Path, script: str) -> None:
     """Raise FirsthitError where Slurm would refuse a job of this script, with what it says; nothing is queued."""
-    with tempfile.NamedTemporaryFile("w", suffix=".sh") as file:
-        file.write(script)
-        file.flush()
-        try:
-            done = subprocess.run(["sbatch", "--test-only", file.name], capture_output=True, text=True, check=False)
-        except OSError as error:
-            told = f"{path}: jobs are queued by sbatch, which does not run here: {error.strerror or error}"
-            raise FirsthitError(told, exit_code=3) from None
+    try:
+        done = subprocess.run(["sbatch", "--test-only"], input=script, capture_output=True, text=True, check=False)
+    except OSError as error:
+        told = f"{path}: jobs are queued by sbatch, which does not run here: {error.strerror or error}"
+        raise FirsthitError(told, exit_code=3) from None
     if done.returncode:
         said = "; ".join(done.stderr.split("\n")).strip("; ")
         raise FirsthitError(f"{path}: Slurm refuses the job: {said}", exit_code=3)
