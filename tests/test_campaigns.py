@@ -67,11 +67,15 @@ def test_a_campaign_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
 def test_the_processes_of_a_campaign_end_with_it(tmp_path: Path, number: signal.Signals) -> None:
     command = [sys.executable, "-m", "tests.campaigns", "formulas", "--jobs", "2", "--folder", str(tmp_path)]
     options: dict[str, Any] = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
+    options["preexec_fn"] = lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which nohup ignores
     with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": str(ROOT)}, **options) as campaign:
-        until(lambda: len(_working(campaign.pid)) == 2)
-        started = _children(campaign.pid)
-        campaign.send_signal(number)
-        told = campaign.communicate(timeout=60)[1]
+        try:
+            until(lambda: len(_working(campaign.pid)) == 2)
+            started = _children(campaign.pid)
+            campaign.send_signal(number)
+            told = campaign.communicate(timeout=60)[1]
+        finally:
+            campaign.kill()
     if number == signal.SIGKILL:
         assert campaign.returncode == -number
     else:
