@@ -88,8 +88,9 @@ def _children(pid: int) -> list[int]:
 
 
 def _working(pid: int) -> list[int]:
-    """The processes of its pool: those that have read what they are to try."""
-    return [child for child in _children(pid) if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()]
+    """The processes of its pool: those that have read what they are, and have a second thread."""
+    spawned = [child for child in _children(pid) if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()]
+    return [child for child in spawned if len(list(Path(f"/proc/{child}/task").iterdir())) > 1]
 
 
 def _lives(pid: int) -> bool:
