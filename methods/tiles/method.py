@@ -68,6 +68,9 @@ Its time grows as the pixels to the power 0.84 in the mean (0.69 Barth decic to 
 0.97. 147 of the run's 520 cells were told to be noisy: the same config of nine surfaces at 1024x1024
 (configs/tiles-1024.toml) gave 2.41 over bernstein hours before.
 
+On opencl:pocl configs/tiles-1024.toml gave 3.97 over bernstein (3.04 octic to 7.16 16-ball), 4.44 over eft_yuksel and
+1.61 over newton, in two sittings at 27d91c5; no clear ray of tiles, bernstein and eft_yuksel is wrong.
+
 What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
 LEANS were chosen on nine of these surfaces in this view.
 
