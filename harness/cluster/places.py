@@ -104,16 +104,16 @@ class Hold:
 
     def _begun(self, asked: Coroutine[Any, Any, Any]) -> Future[Any]:
         """Send what is asked; the process that holds the device is started when this is first called."""
-        try:
+        with contextlib.ExitStack() as undone:
+            undone.callback(asked.close)
             if self._made is None:
                 client, name = self.connect(), f"firsthit-holder-{uuid.uuid4().hex}"
                 options: dict[str, Any] = {"key": name, "workers": [self.place.address], "actor": True, "pure": False}
                 self._loop = client.loop.asyncio_loop
                 self._made = client.submit(Holder, self.timeout, self.share, **options)
-            return asyncio.run_coroutine_threadsafe(asked, self._loop)
-        except BaseException:
-            asked.close()
-            raise
+            sent = asyncio.run_coroutine_threadsafe(asked, self._loop)
+            undone.pop_all()
+        return sent
 
     def _waited(self, asked: Coroutine[Any, Any, Any]) -> Any:
         """Return the answer to what is asked, or raise Lost once the worker is not there any more."""

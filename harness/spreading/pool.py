@@ -199,20 +199,16 @@ class Pool:
         task = pickle.dumps((batch.function, chunk), pickle.HIGHEST_PROTOCOL)
         lost: list[str] = []
         while len(lost) < TRIES:
-            worker = self._lent(batch)
+            worker, usable = self._lent(batch), True
             try:
-                answered = worker.answer(task)
+                return worker.answer(task)
             except _Lost as error:
+                usable = False
                 lost.append(str(error))
-                self._back(batch, worker, usable=False)
                 if batch.stopped:
                     raise
-            except BaseException:
-                self._back(batch, worker)
-                raise
-            else:
-                self._back(batch, worker)
-                return answered
+            finally:
+                self._back(batch, worker, usable)
         told = lost[0] if lost[0] == lost[1] else f"{lost[0]}, and another one {lost[1]}"
         raise FirsthitError(
             f"a worker process {told}, twice on the same work; try --jobs 1, which starts none, or fewer jobs, which "
