@@ -122,7 +122,7 @@ def _gradient_range(surface: Surface) -> int:
     called |= {"surface_range": _range(surface), "interval_floor": 2, "floor": 1}
     total = len(re.findall(r" [-+*/] ", text)) + sum(called.get(name, 0) for name in re.findall(r"\b(\w+)\(", text))
     powers = re.findall(r"\b(bounded|interval)_powi\(\w+, (\d+)\)", text)
-    return total + sum(_interval_power(int(n)) - (kind == "bounded") for kind, n in powers)
+    return total + sum(_interval_power(int(n)) - int(kind == "bounded") for kind, n in powers)
 
 
 def _interval_power(n: int) -> int:
