@@ -6,6 +6,7 @@ constants are free. What a method computes beside its evaluations is not counted
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from harness.contract import Surface
@@ -33,6 +34,14 @@ INTERVAL = {
     "sign": 0,
     "select": 2,
     "atan2": 7 + 2 * 59 + WIDENED + 2,  # two corners; the 2 of open_atan2
+}
+SLOPES = {  # of interval_slopes.glsl
+    **dict.fromkeys(("interval_hull", "slope_of_lesser", "slope_of_abs", "slope_of_select"), 2),
+    **dict.fromkeys(("order_of", "divides", "has_powers", "off_the_cut"), 0),
+    "share_of_length": INTERVAL["div"] + 4,
+    "known_quotient": INTERVAL["div"],
+    "interval_magnitude": 1,
+    "finite_or_whole": 1,
 }
 AFFINE = 10 + WIDENED  # of bounded_affine: one coordinate of a piece of a ray
 
@@ -100,6 +109,22 @@ def _range(surface: Surface) -> int:
     return total
 
 
+def _gradient_range(surface: Surface) -> int:
+    """Count the operations of surface_gradient_range: those that its text names, and those of what it calls."""
+    from harness.kernels.gradient_ranges import gradient_function
+    from harness.kernels.reach import safe_reach
+    from surfaces import tape_of
+
+    reach = safe_reach(surface, "float32")
+    text, _ = gradient_function(tape_of(surface), {}, reach, "float32", "cl")
+    called = {f"interval_{name}": count for name, count in INTERVAL.items()} | SLOPES
+    called |= {f"bounded_{name}": count - 1 for name, count in INTERVAL.items()}  # less the check that it is finite
+    called |= {"surface_range": _range(surface), "interval_floor": 2, "floor": 1}
+    total = len(re.findall(r" [-+*/] ", text)) + sum(called.get(name, 0) for name in re.findall(r"\b(\w+)\(", text))
+    powers = re.findall(r"\b(bounded|interval)_powi\(\w+, (\d+)\)", text)
+    return total + sum(_interval_power(int(n)) - int(kind == "bounded") for kind, n in powers)
+
+
 def _interval_power(n: int) -> int:
     """Count the operations of interval_powi: both ends by squaring, and for an even n the least and greatest |a|."""
     return 2 * (n.bit_length() + n.bit_count()) + (0 if n % 2 else 3) + OUTWARD
@@ -108,6 +133,7 @@ def _interval_power(n: int) -> int:
 _COSTS: dict[str, Callable[[Surface], int]] = {
     "surface_dual_along": _dual_along,
     "surface_range_along": lambda surface: 3 * AFFINE + _range(surface),
+    "surface_gradient_range": _gradient_range,
     "surface_range": _range,
     "surface_distance": _distance,
     "surface_value_along": _value_along,
@@ -117,9 +143,15 @@ _COSTS: dict[str, Callable[[Surface], int]] = {
 
 
 def operations_per_evaluation(surface: Surface, needs: Sequence[str]) -> int | None:
-    """Count the operations of one evaluation by a method that needs these functions; None if it evaluates nothing.
+    """Count the operations of one evaluation by a method that needs these functions.
 
     The evaluation is by the first function of _COSTS among `needs`. A method that needs only the exact coefficients
     along the ray evaluates the polynomial by Horner's rule.
+
+    None if it evaluates nothing, and if it evaluates surface_gradient_range beside other functions. It counts all
+    evaluations alike, and those cost many times as much as that of a point, so that no number holds for all.
     """
-    return next((cost(surface) for name, cost in _COSTS.items() if name in needs), None)
+    own = [name for name in _COSTS if name in needs]
+    if not own or ("surface_gradient_range" in own and len(own) > 1):
+        return None
+    return _COSTS[own[0]](surface)

@@ -308,7 +308,11 @@ class CellRow(TypedDict):
     ]
     arrays: Annotated[str | None, "the file with the answers ray by ray, below the run's folder"]
     operations: Annotated[dict[str, int] | None, "operations of one evaluation of f, by name"]
-    evaluation_operations: Annotated[int | None, "operations of one evaluation of what the method evaluates"]
+    evaluation_operations: Annotated[
+        int | None,
+        "operations of one evaluation of what the method evaluates; null where it evaluates nothing, or counts"
+        " evaluations alike that cost more and less",
+    ]
     program: Annotated[NamedProgram | None, "null where there is none, since the cell was skipped"]
     environment: Annotated[Environment, "when and from what the row was made"]
     seconds: Annotated[float, Leaf("spent on checking, building and timing, s", column=None), NOT_NEGATIVE]
