@@ -67,7 +67,7 @@ def stage_program(
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
         own = _lane_sections(stage, precision, language, form)
         own += [wide_value(surface, precision, language), macros(surface, precision, language, held, stage)]
-        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form, stage)]
+        own += [*_lane_tables(precision, language, form, stage), *files(*_net_files(stage, form))]
     return stated.program(("surface_value",), shape, own)
 
 
