@@ -273,8 +273,9 @@ def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str
     columns = [f"c{x}" for x in range(4)]
     across, wider = [], []
     for j in ks:
-        mixed = _row_mixed([f"from.{c}.k{j}" for c in columns], to_control(), number, differences=True)
-        across += [f"to.{c}.k{j} = {text};" for c, text in zip(columns, mixed, strict=True)]
+        mixed = _row_mixed([f"row.{c}.k{j}" for c in columns], to_control(), number, differences=True)
+        across += ["{", *[f"real {c}_ = {text};" for c, text in zip(columns, mixed, strict=True)]]
+        across += [*[f"row.{c}.k{j} = {c}_;" for c in columns], "}"]
         mixed = _row_mixed([f"net.r{y}.c0.k{j}" for y in range(4)], to_control(), number, differences=True)
         own = [f"v{y}_{j}_" for y in range(4)]
         wider += [f"real {name} = {text};" for name, text in zip(own, mixed, strict=True)]
@@ -290,7 +291,7 @@ def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str
     fall = _halve(n - 1, number) + [f"{half}.k{j} = 0.5 * {half}.k{j};" for half in ("near", "far") for j in range(n)]
     return [
         ("KEEP_NUMBER(lanes, v)", ["real number_ = v;", *kept]),
-        ("ACROSS(from, to)", across),
+        ("ACROSS(row)", across),
         ("FARTHER(o, p, spread_)", farther),
         ("WIDEN(net, b)", wider),
         ("TO_CUBIC(lanes)", _mixed(numbers, to_powers(), number, differences=False)),

@@ -247,8 +247,8 @@ void isolate_tiles(Work work, Frame frame) {
             if (inner == SEARCHING) {
                 real weighted = 0.0;
                 real spread = 0.0;
-                CLEAR_NET(net)
                 EACH_ROW {
+                    BEGIN_ROW(net)
                     EACH_COLUMN {
                         WideRay node = node_ray(work, frame, tile);
                         SAMPLE(s, node.origin, node.direction, start, reach)
@@ -259,7 +259,7 @@ void isolate_tiles(Work work, Frame frame) {
                         KEEP_LANE(net, c)
                         RAISE_SPREAD(net, c, spread)
                     }
-                    KEEP_ROW(net)
+                    END_ROW(net)
                 }
                 all_fits += 1;
                 spent += 16 * (N + 1);

@@ -4,7 +4,7 @@
 // llvmpipe takes a private array's numbers one by one for each lane of its vectors, unless all its indices are known to
 // the compiler. So a net is a queue of rows, whose columns are known (lanes_in_turn.glsl), and Lanes is no array.
 STRUCT(NetRow) struct NetRow { Poly c0; Poly c1; Poly c2; Poly c3; };
-STRUCT(Net) struct Net { NetRow r0; NetRow r1; NetRow r2; NetRow r3; NetRow made; Poly first; };
+STRUCT(Net) struct Net { NetRow r0; NetRow r1; NetRow r2; NetRow r3; Poly first; };
 STRUCT(Lanes) struct Lanes {
     real v0; real v1; real v2; real v3; real v4; real v5; real v6; real v7;
     real v8; real v9; real v10; real v11; real v12; real v13; real v14; real v15;
@@ -12,13 +12,9 @@ STRUCT(Lanes) struct Lanes {
 STRUCT(Bundle) struct Bundle { Poly lo; Poly hi; Poly fall; };
 #define EACH_ROW for (work.row = 0; work.row < 4; work.row++)
 #define EACH_COLUMN for (work.column = 0; work.column < 4; work.column++)
-#define CLEAR_NET(net) { \
-    CONSTANT(net.first, 0.0) \
-    net.made = NetRow(net.first, net.first, net.first, net.first); \
-    net.r0 = net.made; net.r1 = net.made; net.r2 = net.made; net.r3 = net.made; }
-#define KEEP_LANE(net, p) { \
-    net.made.c0 = net.made.c1; net.made.c1 = net.made.c2; net.made.c2 = net.made.c3; net.made.c3 = p; }
-#define KEEP_ROW(net) { net.r0 = net.r1; net.r1 = net.r2; net.r2 = net.r3; ACROSS(net.made, net.r3) }
+#define BEGIN_ROW(net) net.r0 = net.r1; net.r1 = net.r2; net.r2 = net.r3;
+#define KEEP_LANE(net, p) { NEXT_COLUMN(net.r3) net.r3.c3 = p; }
+#define END_ROW(net) ACROSS(net.r3)
 #define RAISE_SPREAD(net, p, spread) { if (FIRST_TURN) net.first = p; FARTHER(net.first, p, spread) }
 #define BUNDLED(net, b) { \
     CONSTANT(b.lo, REAL_INFINITY) \

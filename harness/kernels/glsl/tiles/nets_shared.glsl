@@ -4,10 +4,10 @@
 #define Lanes wide
 #define EACH_ROW
 #define EACH_COLUMN
-#define CLEAR_NET(net)
 #define KEEP_LANE(net, c) { net = c; }
 #define RAISE_SPREAD(net, c, spread) { spread = most(SPREAD(c)); }
-#define KEEP_ROW(net)
+#define BEGIN_ROW(net)
+#define END_ROW(net)
 #define KEEP_NUMBER(lanes, v) { lanes = v; }
 #define NUMBER(lanes) lanes
 #define TO_CUBIC(lanes) TRANSFORM_ANY(lanes, to_powers)
