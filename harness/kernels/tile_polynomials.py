@@ -42,6 +42,7 @@ from harness.kernels.fourths import NODES, POWERS
 from harness.kernels.sections import Lanes, TileStage, literal
 
 Row = Sequence[Fraction]
+LONGEST = 600  # operations that f's text may have in SAMPLE where a work item does all lanes: compilers inline it
 
 
 def to_nodes() -> list[Row]:
@@ -164,44 +165,33 @@ def _fit(n: int, even: Sequence[float], odd: Sequence[float], number: Callable[[
 
 
 def _sampled(surface: Surface, nodes: Sequence[float], number: Callable[[float], str]) -> list[str]:
-    """Return the statements of SAMPLE as a loop, so that f stands in the program as often as a turn evaluates it."""
-    import os
+    """Return the statements of SAMPLE where f stands in them for LONGEST operations at most, or once.
+
+    Where all samples have more operations, the last ones are taken in the turns of a loop, and s is a queue.
+    """
     import surfaces
     from surfaces.lowering import real_tape
 
-    operations = len(real_tape(surfaces.tape_of(surface)).ops)
     count = len(nodes)
-    each = max(1, int(os.environ.get("LIM", "200")) // operations)
-    turns = count // each
-    if turns <= 1:
-        turns, each = 1, count
+    each = max(1, LONGEST // len(real_tape(surfaces.tape_of(surface)).ops))  # samples a turn
+    turns = count // each if each < count else 0
     first = count - turns * each
-    if os.environ.get("SAY"):
-        print(surface.name, operations, "each", each, "turns", turns, "first", first)
 
-    def text(at: str) -> str:
-        return f"wide_value(wide_point(o, a + h * {at}, d))"
+    def sample(i: int, place: str) -> str:
+        return f"s.k{i} = wide_value(wide_point(o, a + h * {place}, d));"
 
-    straight = [f"s.k{i} = {text(number(nodes[i]))};" for i in range(count if turns == 1 else first)]
-    if turns == 1:
-        return straight
-    at = []
-    for i in range(each):
-        chain = number(nodes[first + (turns - 1) * each + i])
-        for turn in range(turns - 2, -1, -1):
-            chain = f"i_ == {turn} ? {number(nodes[first + turn * each + i])} : {chain}"
-        at.append(chain)
-    moved = [f"s.k{i} = s.k{i + each};" for i in range(count - each)]
-    # a queue
-    held = [f"s.k{count - first + i} = {text(number(nodes[i]))};" for i in range(first)]
-    return [
-        "CONSTANT(s, wide(0.0))",
-        *held,
-        f"for (int i_ = 0; i_ < {turns}; i_++) {{",
-        *moved,
-        *[f"s.k{count - each + i} = {text(f'({chain})')};" for i, chain in enumerate(at)],
-        "}",
+    if not turns:
+        return [sample(i, number(place)) for i, place in enumerate(nodes)]
+    lines = [sample(count - first + i, number(nodes[i])) for i in range(first)]
+    lines += [
+        f"for (int turn_ = 0; turn_ < {turns}; turn_++) {{",
+        *[f"s.k{i} = s.k{i + each};" for i in range(count - each)],
     ]
+    for i in range(each):
+        *early, last = [number(place) for place in nodes[first + i :: each]]
+        place = " : ".join([*[f"turn_ == {turn} ? {text}" for turn, text in enumerate(early)], last])
+        lines.append(sample(count - each + i, f"({place})"))
+    return [*lines, "}"]
 
 
 def _halve(n: int, number: Callable[[float], str]) -> list[str]:
