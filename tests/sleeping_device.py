@@ -110,7 +110,7 @@ def _patched() -> Iterator[pytest.MonkeyPatch]:
     """Let devices sleep, and lock the machine elsewhere than other workers and runs do, for a block."""
     with tempfile.TemporaryDirectory() as locks, pytest.MonkeyPatch.context() as patched:
         patched.setattr(holder, "LocalExecutor", SleepingExecutor)
-        patched.setattr(holder.admission, "_folder", lambda: Path(locks))
+        patched.setattr(holder.admission, "_folder", lambda _: Path(locks))
         patched.setattr("harness.cluster.engine.announce", announce)
         yield patched
 

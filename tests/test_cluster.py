@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import shutil
 import threading
 import time
 from pathlib import Path
@@ -209,7 +210,7 @@ def test_alike_devices_have_one_name_and_others_that_of_their_machine() -> None:
 def test_nothing_runs_beside_a_timed_step_and_who_works_waits_for_no_second_turn(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(admission, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(admission, "_folder", lambda _: tmp_path)
     inside: list[str] = []
     seen: list[list[str]] = []
 
@@ -232,6 +233,15 @@ def test_nothing_runs_beside_a_timed_step_and_who_works_waits_for_no_second_turn
     assert all(len(names) == 2 for first, *names in seen if first.startswith("timed") for names in [[first, *names]])
     with admission.beside(), admission.beside(), admission.away(), admission.alone("d", whole_machine=True):
         pass
+
+
+def test_a_folder_of_locks_that_was_tidied_away_is_made_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    for _ in range(2):
+        with admission.alone("d", whole_machine=True):
+            (folder,) = tmp_path.iterdir()
+            assert {file.name for file in folder.iterdir()} == {"gate.lock", "room.lock"}
+        shutil.rmtree(folder)
 
 
 def test_python_runs_on_a_cluster_as_the_command_does(

@@ -102,6 +102,26 @@ def test_a_slope_that_interpolation_gets_wrong_ends_no_refinement():
     assert shares["single_8"] > 0.2 and differ == 0.0
 
 
+RIM = {"flirt": (0.3, 0.0), "clebsch": (0.6, 0.0), "kummer": (0.3, 0.5)}  # windows on the domain's rim, right and up
+BEHIND = "stop = end;\n                    tries = 0;"
+MOST_ALONE = {"flirt": 0.01, "clebsch": 0.08, "kummer": 0.01}  # shares of pixels; 0.09 to 0.15 without second pieces
+
+
+@pytest.mark.parametrize("name", RIM)
+def test_rays_that_the_domain_cuts_find_their_root_behind_the_first_piece(name):
+    surface = surfaces.get(name)
+    shares, differ = cast(surface, window(surface, RIM[name][0], above=RIM[name][1]))
+    assert shares["rest"] <= MOST_ALONE[name], shares
+    assert differ == 0.0
+
+
+@pytest.mark.parametrize(("name", "broken"), [("kummer", "end = start;"), ("clebsch", "start = 0.5 * (start + end);")])
+def test_a_break_behind_the_first_piece_gives_wrong_answers(name, broken):
+    surface = surfaces.get(name)
+    _, differ = cast(surface, window(surface, RIM[name][0], above=RIM[name][1]), BEHIND, f"{broken} {BEHIND}")
+    assert differ > 0.01
+
+
 BREAKS = {  # what is broken, the window where it shows and the image's pixels, and there the ranges as in RANGES
     "a path that is lost leaves tiles open": (
         ("barth_sextic", 0.3, PIXELS, STEP, f"{STEP} inner = OPEN;"),

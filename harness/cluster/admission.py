@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 from harness.contract import FirsthitError
@@ -98,7 +99,7 @@ def _locked(name: str, exclusive: bool) -> Iterator[None]:
     """Hold a lock of this machine's; the system gives it back with the process."""
     if fcntl is None:
         raise FirsthitError("a cluster's machines need locks of files (flock), which this system lacks", exit_code=3)
-    file = os.open(_folder() / f"{name}.lock", os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
+    file = _opened(name)
     try:
         kind, pause, end = fcntl.LOCK_EX if exclusive else fcntl.LOCK_SH, SHORTEST, time.monotonic() + BUSY_SECONDS
         while True:
@@ -107,7 +108,8 @@ def _locked(name: str, exclusive: bool) -> Iterator[None]:
                 break
             except BlockingIOError:
                 if time.monotonic() > end:
-                    told = f"other work has had this machine for {BUSY_SECONDS:.0f} s ({_folder() / name}.lock)"
+                    where = f"{_folder(tempfile.gettempdir())}/{name}.lock"
+                    told = f"other work has had this machine for {BUSY_SECONDS:.0f} s ({where})"
                     raise FirsthitError(told, exit_code=3) from None
                 time.sleep(pause)
                 pause = min(2.0 * pause, LONGEST)
@@ -116,10 +118,23 @@ def _locked(name: str, exclusive: bool) -> Iterator[None]:
         os.close(file)
 
 
-def _folder() -> Path:
-    """Return the folder of this user's locks on this machine. Raises FirsthitError where another user made it."""
+def _opened(name: str) -> int:
+    """Open the file of a lock, and make it if it is not there. Raises FirsthitError as _folder does."""
+    flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
+    with contextlib.suppress(FileNotFoundError):
+        return os.open(f"{_folder(tempfile.gettempdir())}/{name}.lock", flags, 0o600)
+    _folder.cache_clear()  # somebody has tidied the folder away
+    return os.open(f"{_folder(tempfile.gettempdir())}/{name}.lock", flags, 0o600)
+
+
+@cache
+def _folder(parent: str) -> Path:
+    """Return the folder of this user's locks on this machine. Raises FirsthitError where another user made it.
+
+    It is looked at once: nobody else can change a folder of mode 700, or what stands in its place in `parent`.
+    """
     user = os.getuid() if hasattr(os, "getuid") else 0
-    folder = Path(tempfile.gettempdir()) / f"firsthit-{user}"
+    folder = Path(parent) / f"firsthit-{user}"
     folder.mkdir(mode=0o700, exist_ok=True)
     if folder.is_symlink() or folder.stat().st_uid != user:
         raise FirsthitError(f"{folder} is not this user's, so that nobody can lock the machine there", exit_code=3)

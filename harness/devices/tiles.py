@@ -129,8 +129,10 @@ def tile_steps(device: Device, plans: Sequence[Plan], built: Sequence[Built], si
     if not plan.opened:
         steps.append(step(packets, last, plan.levels, tiles(size, last)))
     cast = step(rest, last, plan.levels + 1, size * size)
-    if plans[3].group > 1:
+    if plans[3].group > 1 and device.info.resident:
         return [*steps, cast]
+    if plans[3].group > 1:  # most frames leave few pixels, and a processor takes long to begin an item for each
+        return [*steps, replace(cast, grid=(min(size * size, GROUPS_PER_UNIT * units * plans[3].group), 1))]
     items = min(size * size, ITEMS_PER_UNIT * max(UNITS, units))
     return [*steps, replace(cast, grid=(items, 1), group=None)]
 

@@ -34,7 +34,8 @@ TILE = 16  # pixels along a side of the first level's tiles
 WARPS = 64  # work items of a group whose lanes are halves of warps
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
-RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 40, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
+PIECE = 40  # reals of a piece that holds a root of each of a tile's rays; a single tile has at most two
+RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 2 * PIECE, "PIECE_RECORD": PIECE, "QUEUE_RECORD": 2}
 
 
 def stage_program(

@@ -221,6 +221,8 @@ void isolate_tiles(Work work, Frame frame) {
         int depth = 0;
         int path = 1;
         int tries = 0;
+        int pieces = 0;  // that hold a root of each ray, and are entered in `record`
+        int record = -1;
         bool negative = false;
         real open_start = start;
         real open_width = 0.0;
@@ -339,37 +341,56 @@ void isolate_tiles(Work work, Frame frame) {
                     }
                 }
             }
-        }
-        if (verdict == SINGLE) spent += 16 * (N + 1);
-        int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
-        if (verdict == EMPTY) answer_empty(work, i0, j0, share);
-        if (verdict == SINGLE) {
-            real width = stop - start;
-            bool whole = true;
-            Lanes roots;
-            Lanes slopes;
-            EACH_LANE {
-                WideRay node = node_ray(work, frame, tile);
-                WideVec3 front = wide_point(node.origin, wide(start), node.direction);
-                WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
-                bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
-                whole = whole && here;
-                SAMPLE(s, node.origin, node.direction, start, width)
-                if (negative) SCALE(s, -1.0)
-                FIT(s, c)
-                WideRoot found;
-                FIND_ROOT(found, c, NOT(NOWHERE))
-                wide root = start + width * found.x;
-                wide slope = width / found.slope;
-                if (negative) slope = -slope;
-                KEEP_NUMBER(roots, root)
-                KEEP_NUMBER(slopes, slope)
+            if (verdict == SINGLE) {
+                real width = stop - start;
+                bool whole = true;
+                bool early = false;  // whether a node's root lies before its ray is in the domain
+                Lanes roots;
+                Lanes slopes;
+                EACH_LANE {
+                    WideRay node = node_ray(work, frame, tile);
+                    WideVec3 front = wide_point(node.origin, wide(start), node.direction);
+                    WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
+                    bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
+                    whole = whole && here;
+                    SAMPLE(s, node.origin, node.direction, start, width)
+                    if (negative) SCALE(s, -1.0)
+                    FIT(s, c)
+                    WideRoot found;
+                    FIND_ROOT(found, c, NOT(NOWHERE))
+                    wide root = start + width * found.x;
+                    wide slope = width / found.slope;
+                    if (negative) slope = -slope;
+                    KEEP_NUMBER(roots, root)
+                    KEEP_NUMBER(slopes, slope)
+                    WideSpan span = wide_span(node.origin, node.direction, 0.0);
+                    bool outside = any_lane(LESS(root, max(span.lo, wide(-frame.middle))));
+                    early = early || outside;
+                }
+                spent += 16 * (N + 1);
+                TO_CUBIC(roots)
+                TO_CUBIC(slopes)
+                if (pieces == 0) record = new_single(work, cell);
+                enter_single(work, record + PIECE_RECORD * pieces, roots, slopes, start, stop, whole, lean.across,
+                             lean.down);
+                pieces += 1;
+                if (early && pieces == 1) {
+                    // rays whose root lies before the domain have their first one in it behind this piece
+                    start = stop;
+                    stop = end;
+                    tries = 0;
+                    verdict = start < end ? SEARCHING : EMPTY;
+                }
             }
-            TO_CUBIC(roots)
-            TO_CUBIC(slopes)
-            list_single(work, cell, roots, slopes, start, stop, whole, share, lean.across, lean.down);
         }
-        if (verdict == OPEN) {
+        int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
+        if (pieces > 0) {
+            int behind = pieces > 1 ? IN_SECOND : verdict == EMPTY ? NOTHING : UNKNOWN;
+            if (LEADS) enter_single_end(work, record, behind, share);
+        } else if (verdict == EMPTY) {
+            answer_empty(work, i0, j0, share);
+        }
+        if (verdict == OPEN && pieces == 0) {
             if (leans) {
                 // no ray has a root before this depth
                 real share = fabs(lean.across) + fabs(lean.down);

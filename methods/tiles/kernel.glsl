@@ -13,6 +13,11 @@
 #define LAST_STEPS 2           // most steps by means of f
 #define SHORT 0.0625           // longest last step but one, over the root of the tolerance
 
+// What is known behind a single tile's first piece, for rays whose root lies before the domain.
+#define UNKNOWN 0
+#define IN_SECOND 1  // their next root is in the second piece
+#define NOTHING 2
+
 #define SEARCHING 0
 #define EMPTY 1
 #define SINGLE 2

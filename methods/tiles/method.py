@@ -18,6 +18,7 @@ A frame takes four stages, and nothing comes back to the host between them:
    halving and depth first. A tile is empty, single (every ray has its first root in one piece, and no other root
    there) or open. A tile whose roots lie at too many depths for one piece is tried once more with nodes in planes that
    lean as the surface does (LEANS).
+   At the rim, where the domain cuts the surface, a single tile is searched behind its piece too.
 2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides: a
    few steps, and one by the mean of f over FIRST_PAIRS pairs of points, as in bernstein. Where f at these is far
    from a line, the mean is over PAIRS.

@@ -306,7 +306,7 @@ void list_ranged(Work work, Frame frame, int cell, Search search, Pyramid pyrami
     Refined found = refined(pyramid.middle, search.sign, 0.5 * (search.start + search.stop), search.start, search.stop,
                             1.0 / search.slope);
     real leaning = -(frame.middle + found.t) / search.slope;
-    int record = next_single(work, cell);
+    int record = new_single(work, cell);
     enter(work, record, found.t);
     enter(work, record + 1, leaning * search.across);
     enter(work, record + 2, leaning * search.down);

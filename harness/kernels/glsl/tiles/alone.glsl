@@ -10,6 +10,6 @@ void answer_empty(Work work, int i0, int j0, int evaluations) {
 }
 
 // Lists one more single tile, and returns where its record begins in `entries`.
-int next_single(Work work, int cell) {
+int new_single(Work work, int cell) {
     return single_record(work, cell, next_in(work, 4 * work.level + 1));
 }

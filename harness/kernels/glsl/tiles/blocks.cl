@@ -1,10 +1,9 @@
 // What a stage writes and reads for all lanes at once. Lane k is pixel (k & 3, k >> 2) of a block.
-void list_single(Work work, int cell, wide root, wide slope, real start, real stop, bool whole, int spent,
-                 real lean_x, real lean_y) {
-    int record = next_single(work, cell);
-    vstore16(root, 0, work.entries + record);
-    vstore16(slope, 1, work.entries + record);
-    enter_piece(work, record + 32, start, stop, whole, spent, lean_x, lean_y);
+void enter_single(Work work, int place, wide root, wide slope, real start, real stop, bool whole, real lean_x,
+                  real lean_y) {
+    vstore16(root, 0, work.entries + place);
+    vstore16(slope, 1, work.entries + place);
+    enter_piece(work, place + 32, start, stop, whole, lean_x, lean_y);
 }
 
 // Answers the 16 pixels of the block at (i0, j0): hits where `hit`, at shift + t, else misses.
@@ -36,6 +35,48 @@ void answer_block(Work work, int i0, int j0, wide shift, wide t, yes hit, int st
         int j = j0 + (k >> 2);
         if (i >= across || j >= across) continue;
         answer_pixel(work, j * across + i, shifts[k], ts[k], word[k]);
+    }
+}
+
+// Marks pixels of a block whose first root in the domain is still to be found in a second piece.
+void pass_pixels(Work work, int i0, int j0, yes which) {
+    int marks[16];
+    vstore16(int_lanes(which), 0, marks);
+    for (int k = 0; k < 16; k++) {
+        int i = i0 + (k & 3);
+        int j = j0 + (k >> 2);
+        int place = j * work.size + i;
+        if (marks[k] != 0 && i < work.size && j < work.size) set_answer(work, place, passed_word(answered(work, place)));
+    }
+}
+
+// Returns which pixels of a block are marked.
+yes passed_pixels(Work work, int i0, int j0) {
+    real marks[16];
+    for (int k = 0; k < 16; k++) {
+        int i = i0 + (k & 3);
+        int j = j0 + (k >> 2);
+        bool marked = i < work.size && j < work.size && is_passed(answered(work, j * work.size + i));
+        marks[k] = marked ? real(1) : real(0);
+    }
+    return MORE(vload16(0, marks), wide(0.0));
+}
+
+// Answers some pixels of a block, as answer_block, and adds to their evaluations.
+void answer_again(Work work, int i0, int j0, yes which, wide shift, wide t, yes hit, int stage, int evaluations) {
+    int marks[16];
+    int hits[16];
+    real shifts[16];
+    real ts[16];
+    vstore16(int_lanes(which), 0, marks);
+    vstore16(int_lanes(hit), 0, hits);
+    vstore16(shift, 0, shifts);
+    vstore16(t, 0, ts);
+    for (int k = 0; k < 16; k++) {
+        int place = (j0 + (k >> 2)) * work.size + i0 + (k & 3);
+        if (marks[k] == 0) continue;
+        int word = answer_word(hits[k] != 0 ? HIT : MISS, stage, (answered(work, place) >> 7) + evaluations);
+        answer_pixel(work, place, shifts[k], ts[k], word);
     }
 }
 

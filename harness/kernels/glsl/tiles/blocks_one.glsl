@@ -9,6 +9,28 @@ void answer_block(Work work, int i0, int j0, real shift, real t, bool hit, int s
     answer_pixel(work, j * work.size + i, shift, t, answer_word(hit ? HIT : MISS, stage, evaluations));
 }
 
+// Marks the lane's pixel, if its first root in the domain is still to be found in a second piece.
+void pass_pixels(Work work, int i0, int j0, bool which) {
+    int i = i0 + OWN_LANE % BLOCK_WIDTH;
+    int j = j0 + OWN_LANE / BLOCK_WIDTH;
+    int place = j * work.size + i;
+    if (which && i < work.size && j < work.size) set_answer(work, place, passed_word(answered(work, place)));
+}
+
+// Tells whether the lane's pixel is marked.
+bool passed_pixels(Work work, int i0, int j0) {
+    int i = i0 + OWN_LANE % BLOCK_WIDTH;
+    int j = j0 + OWN_LANE / BLOCK_WIDTH;
+    return i < work.size && j < work.size && is_passed(answered(work, j * work.size + i));
+}
+
+// Answers the lane's pixel if it is marked, as answer_block, and adds to its evaluations.
+void answer_again(Work work, int i0, int j0, bool which, real shift, real t, bool hit, int stage, int evaluations) {
+    int place = (j0 + OWN_LANE / BLOCK_WIDTH) * work.size + i0 + OWN_LANE % BLOCK_WIDTH;
+    int before = which ? answered(work, place) >> 7 : 0;
+    if (which) answer_pixel(work, place, shift, t, answer_word(hit ? HIT : MISS, stage, before + evaluations));
+}
+
 // Puts the lane's pixel on the list of those that the last stage casts, each from a depth on.
 void leave_pixels(Work work, int i0, int j0, bool which, real from) {
     int i = i0 + OWN_LANE % BLOCK_WIDTH;

@@ -5,6 +5,17 @@ int answer_word(int status, int stage, int evaluations) {
     return is_answer(status, evaluations) ? (evaluations * 32 + stage) * 4 + status : NO_ANSWER;
 }
 
+// The stage that a pixel's answer names while its first root in the domain is still to be found in a second piece.
+#define PASSED (2 * LEVELS + 2)
+
+bool is_passed(int word) {
+    return ((word >> 2) & 31) == PASSED;
+}
+
+int passed_word(int word) {
+    return (word & ~(31 << 2)) + 4 * PASSED;
+}
+
 // Returns where the listed ray of a pixel begins in `rays`: that of each `ratio`th row and column; -1 if it has none.
 int listed_place(Work work, int i, int j) {
     int ratio = work.ratio;
@@ -51,14 +62,20 @@ int single_record(Work work, int cell, int slot) {
     return singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
 }
 
-// Enters the piece that has a single tile's roots, whether all of it is in the domain, and how its nodes' planes lean.
-void enter_piece(Work work, int place, real start, real stop, bool whole, int spent, real lean_x, real lean_y) {
+// Enters a piece that has a root of each of a single tile's rays: whether all of it is in the domain, and how its nodes'
+// planes lean.
+void enter_piece(Work work, int place, real start, real stop, bool whole, real lean_x, real lean_y) {
     enter(work, place, start);
     enter(work, place + 1, stop);
     enter(work, place + 2, whole ? real(1) : real(0));
-    enter(work, place + 3, real(spent));
-    enter(work, place + 4, lean_x);
-    enter(work, place + 5, lean_y);
+    enter(work, place + 3, lean_x);
+    enter(work, place + 4, lean_y);
+}
+
+// Enters what is known behind a single tile's first piece, and a pixel's share of the evaluations for the tile.
+void enter_single_end(Work work, int record, int behind, int share) {
+    enter(work, record + 37, real(behind));
+    enter(work, record + 38, real(share));
 }
 
 // Puts a pixel on the list of those that the last stage casts, from a depth on.

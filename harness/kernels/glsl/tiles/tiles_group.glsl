@@ -1,10 +1,13 @@
 // What isolation writes for a tile where sixteen work items have one lane each.
-void list_single(Work work, int cell, real root, real slope, real start, real stop, bool whole, int spent,
-                 real lean_x, real lean_y) {
-    int record = single_record(work, cell, shared_place(work, 4 * work.level + 1));
-    enter(work, record + OWN_LANE, root);
-    enter(work, record + 16 + OWN_LANE, slope);
-    enter_piece(work, record + 32, start, stop, whole, spent, lean_x, lean_y);
+int new_single(Work work, int cell) {
+    return single_record(work, cell, shared_place(work, 4 * work.level + 1));
+}
+
+void enter_single(Work work, int place, real root, real slope, real start, real stop, bool whole, real lean_x,
+                  real lean_y) {
+    enter(work, place + OWN_LANE, root);
+    enter(work, place + 16 + OWN_LANE, slope);
+    enter_piece(work, place + 32, start, stop, whole, lean_x, lean_y);
 }
 
 // Answers that all pixels of a tile miss.
