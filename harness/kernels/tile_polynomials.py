@@ -24,10 +24,14 @@ And on what isolation keeps of a tile (glsl/tiles/nets_*.glsl), where one work i
 
     KEEP_NUMBER(lanes, v)   puts v into the place of the lane that is being done
     NUMBER(lanes)           the number in that place
-    FIND_SPREAD(net, v)     v = the largest distance of a lane's coefficients from those of the first lane
-    CONTROL(net)            makes the nodes' coefficients those of the bicubic's control net
+    FARTHER(o, p, v)        v becomes the largest distance of coefficients of p from those of o, if that is larger
+    ACROSS(row)             makes the coefficients of a row of nodes those of cubics in Bernstein form
+    WIDEN(net, b)           b becomes what bounds the control net's first column too: ACROSS's transform, downwards
     TO_CUBIC(lanes)         makes the nodes' numbers the coefficients of 1, x, x², x³ in both directions
-    BUNDLED(net, b)         b = the three polynomials that bound the net's
+    FIND_WEIGHTS(lanes, t)  lanes = the factors of fourth derivatives in the bound of tile t's remainder at depth 1
+    NO_BOUNDS(lanes)        lanes = 0
+    RAISE_BOUNDS(lanes, g, place)  lanes become the bounds at a place of their table, times g, where these are larger
+    WEIGHED(a, b)           the sum of the products of the lanes' numbers
     HALVE_FALL(near, far)   halves the polynomial of differences, whose degree is one less
 """
 

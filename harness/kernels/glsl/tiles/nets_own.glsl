@@ -2,7 +2,9 @@
 // the least and the largest of their coefficients, and `fall` the largest of the differences of neighbouring ones. All
 // three bound the halves too, since halving takes means.
 // llvmpipe takes a private array's numbers one by one for each lane of its vectors, unless all its indices are known to
-// the compiler. So a net is a queue of rows, whose columns are known (lanes_in_turn.glsl), and Lanes is no array.
+// the compiler, and its compiler takes long for long programs. So nothing here is an array: loops over rows and columns
+// see the net as a queue. A turn of the first loop fits a row of nodes and transforms it across; one of the second
+// transforms a column downwards and bounds it.
 STRUCT(NetRow) struct NetRow { Poly c0; Poly c1; Poly c2; Poly c3; };
 STRUCT(Net) struct Net { NetRow r0; NetRow r1; NetRow r2; NetRow r3; Poly first; };
 STRUCT(Lanes) struct Lanes {
@@ -16,6 +18,7 @@ STRUCT(Bundle) struct Bundle { Poly lo; Poly hi; Poly fall; };
 #define KEEP_LANE(net, p) { NEXT_COLUMN(net.r3) net.r3.c3 = p; }
 #define END_ROW(net) ACROSS(net.r3)
 #define RAISE_SPREAD(net, p, spread) { if (FIRST_TURN) net.first = p; FARTHER(net.first, p, spread) }
+// Where all numbers of a coefficient are NaN, its bounds stay infinite: so does the error bound, and nothing is certain.
 #define BUNDLED(net, b) { \
     CONSTANT(b.lo, REAL_INFINITY) \
     CONSTANT(b.hi, -REAL_INFINITY) \
