@@ -165,9 +165,9 @@ def _lane_tables(precision: Precision, language: Language, form: Lanes, stage: T
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
     direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its
     node's place.
-    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives. Where a work item does the
-    lanes in turn, a row is a macro that reads its table, a node's place follows from its column or row, and FIND_WEIGHTS
-    has the powers.
+    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives. Where a work item does
+    the lanes in turn, a row is a macro that reads its table, a node's place follows from its column or row, and
+    FIND_WEIGHTS has the powers.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     width = block_width(form)
