@@ -136,12 +136,12 @@ generation: two thirds, and the allocation of registers a quarter, for the 16-ba
       place of a stack, which is an array
     nothing is unrolled and nothing is an array: queues     with the row before: torus 2.3 to 1.4 s, 16-ball    yes
       of lanes and of rows; a column of the control net a   7.3 to 2.9, the octic 0.51 of the time; frames at
-      turn; what the rays differ by is found lane by        512x512 0.90 to 1.01 times the time, all bits alike
+      turn; what the rays differ by is found lane by        512x512 0.90 to 1.01 of the time, all bits alike
       lane; weights and bounds of derivatives without a
       loop
     and SAMPLE is a loop where f is long (LONGEST)          dense polynomial of degree 16 0.69, of degree 8     yes
-                                                            0.9 of the time; isolation 1.1 and 1.0 times, still
-                                                            0.9 of what it was
+                                                            0.9 of the time; isolation takes 1.1 and 1.0
+                                                            times as long, still 0.9 of what it was
     LONGEST = 200 or 800 in place of 600                    degree 16: 0.97 and 1.0 times as long to compile    no
     queues are set to 0, so that no turn of an outer loop   no sooner compiled                                  no
       depends on the one before
