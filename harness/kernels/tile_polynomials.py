@@ -24,10 +24,14 @@ And on what isolation keeps of a tile (glsl/tiles/nets_*.glsl), where one work i
 
     KEEP_NUMBER(lanes, v)   puts v into the place of the lane that is being done
     NUMBER(lanes)           the number in that place
-    FIND_SPREAD(net, v)     v = the largest distance of a lane's coefficients from those of the first lane
-    CONTROL(net)            makes the nodes' coefficients those of the bicubic's control net
+    FARTHER(o, p, v)        v becomes the largest distance of coefficients of p from those of o, if that is larger
+    ACROSS(row)             makes the coefficients of a row of nodes those of cubics in Bernstein form
+    WIDEN(net, b)           b becomes what bounds the control net's first column too: ACROSS's transform, downwards
     TO_CUBIC(lanes)         makes the nodes' numbers the coefficients of 1, x, x², x³ in both directions
-    BUNDLED(net, b)         b = the three polynomials that bound the net's
+    FIND_WEIGHTS(lanes, t)  lanes = the factors of fourth derivatives in the bound of tile t's remainder at depth 1
+    NO_BOUNDS(lanes)        lanes = 0
+    RAISE_BOUNDS(lanes, g, place)  lanes become the bounds at a place of their table, times g, where these are larger
+    WEIGHED(a, b)           the sum of the products of the lanes' numbers
     HALVE_FALL(near, far)   halves the polynomial of differences, whose degree is one less
 """
 
@@ -38,10 +42,11 @@ from fractions import Fraction
 from math import comb
 
 from harness.contract import Language, Precision, Section, Surface
-from harness.kernels.fourths import NODES
+from harness.kernels.fourths import NODES, POWERS
 from harness.kernels.sections import Lanes, TileStage, literal
 
 Row = Sequence[Fraction]
+LONGEST = 600  # operations that f's text may have in SAMPLE where a work item does all lanes: compilers inline it
 
 
 def to_nodes() -> list[Row]:
@@ -114,9 +119,10 @@ def macros(surface: Surface, precision: Precision, language: Language, lanes: La
         ("CONSTANT(c, v)", " ".join(f"c.k{j} = v;" for j in ks)),
     ]
     if lanes == "own" and stage == "isolate":
-        made += _own_net(n, number)
+        made += [*_own_net(n, number), ("SAMPLE(s, o, d, a, h)", _sampled(surface, tables["NODES"], number))]
         rows = [chosen("work.column", [f"lanes.v{4 * row + x}" for x in range(4)]) for row in range(4)]
         values.append(("NUMBER(lanes)", chosen("work.row", rows)))
+        values.append(("WEIGHED(a, b)", " + ".join(f"a.v{k} * b.v{k}" for k in range(15))))
         values.append(("LARGEST_FALL(c)", _paired("max", [f"c.k{j}" for j in range(n)])))
     elif lanes == "group":
         made.append(("TRANSFORM(c, rows)", _exchanged_transform(n)))
@@ -160,6 +166,36 @@ def _fit(n: int, even: Sequence[float], odd: Sequence[float], number: Callable[[
     if evens > odds:
         lines.append(f"c.k{n // 2} = {row(even, evens, odds, 'p')};")
     return lines
+
+
+def _sampled(surface: Surface, nodes: Sequence[float], number: Callable[[float], str]) -> list[str]:
+    """Return the statements of SAMPLE where f stands in them for LONGEST operations at most, or once.
+
+    Where all samples have more operations, the last ones are taken in the turns of a loop, and s is a queue.
+    """
+    import surfaces
+    from surfaces.lowering import real_tape
+
+    count = len(nodes)
+    each = max(1, LONGEST // len(real_tape(surfaces.tape_of(surface)).ops))  # samples a turn
+    turns = count // each if each < count else 0
+    first = count - turns * each
+
+    def sample(i: int, place: str) -> str:
+        return f"s.k{i} = wide_value(wide_point(o, a + h * {place}, d));"
+
+    if not turns:
+        return [sample(i, number(place)) for i, place in enumerate(nodes)]
+    lines = [sample(count - first + i, number(nodes[i])) for i in range(first)]
+    lines += [
+        f"for (int turn_ = 0; turn_ < {turns}; turn_++) {{",
+        *[f"s.k{i} = s.k{i + each};" for i in range(count - each)],
+    ]
+    for i in range(each):
+        *early, last = [number(place) for place in nodes[first + i :: each]]
+        place = " : ".join([*[f"turn_ == {turn} ? {text}" for turn, text in enumerate(early)], last])
+        lines.append(sample(count - each + i, f"({place})"))
+    return [*lines, "}"]
 
 
 def _halve(n: int, number: Callable[[float], str]) -> list[str]:
@@ -228,28 +264,32 @@ def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str
     """Return the macros on a Net, a Bundle and Lanes of a work item that has all lanes; see nets_own.glsl."""
     ks, lanes = range(n + 1), range(16)
 
-    def at(k: int, j: int) -> str:
-        return f"net.r{k // 4}.c[{k % 4}].k{j}"
-
-    spread = [f"spread_ = max(spread_, fabs({at(k, j)} - {at(0, j)}));" for j in ks for k in lanes if k]
-    bundled = []
+    columns = [f"c{x}" for x in range(4)]
+    across, wider = [], []
     for j in ks:
-        bundled.append(f"b.lo.k{j} = {_paired('min', [at(k, j) for k in lanes])};")
-        bundled.append(f"b.hi.k{j} = {_paired('max', [at(k, j) for k in lanes])};")
-    for j in range(n):
-        falls = [f"{at(k, j + 1)} - {at(k, j)}" for k in lanes]
-        bundled.append(f"b.fall.k{j} = {_paired('max', falls)};")
-    bundled.append(f"b.fall.k{n} = real(0);")
-    control = [line for j in ks for line in _mixed([at(k, j) for k in lanes], to_control(), number, differences=True)]
+        mixed = _row_mixed([f"row.{c}.k{j}" for c in columns], to_control(), number, differences=True)
+        across += ["{", *[f"real {c}_ = {text};" for c, text in zip(columns, mixed, strict=True)]]
+        across += [*[f"row.{c}.k{j} = {c}_;" for c in columns], "}"]
+        mixed = _row_mixed([f"net.r{y}.c0.k{j}" for y in range(4)], to_control(), number, differences=True)
+        own = [f"v{y}_{j}_" for y in range(4)]
+        wider += [f"real {name} = {text};" for name, text in zip(own, mixed, strict=True)]
+        wider.append(f"b.lo.k{j} = min(b.lo.k{j}, {_paired('min', own)});")
+        wider.append(f"b.hi.k{j} = max(b.hi.k{j}, {_paired('max', own)});")
+        if j:
+            falls = [f"v{y}_{j}_ - v{y}_{j - 1}_" for y in range(4)]
+            wider.append(f"b.fall.k{j - 1} = max(b.fall.k{j - 1}, {_paired('max', falls)});")
+    wider.append(f"b.fall.k{n} = real(0);")
+    farther = [f"spread_ = max(spread_, {_paired('max', [f'fabs(p.k{j} - o.k{j})' for j in ks])});"]
     numbers = [f"lanes.v{k}" for k in lanes]
     kept = [f"{place} = OWN_LANE == {k} ? number_ : {place};" for k, place in enumerate(numbers)]
     fall = _halve(n - 1, number) + [f"{half}.k{j} = 0.5 * {half}.k{j};" for half in ("near", "far") for j in range(n)]
     return [
         ("KEEP_NUMBER(lanes, v)", ["real number_ = v;", *kept]),
-        ("FIND_SPREAD(net, spread_)", spread),
-        ("CONTROL(net)", control),
+        ("ACROSS(row)", across),
+        ("FARTHER(o, p, spread_)", farther),
+        ("WIDEN(net, b)", wider),
         ("TO_CUBIC(lanes)", _mixed(numbers, to_powers(), number, differences=False)),
-        ("BUNDLED(net, b)", bundled),
+        *_own_bounds(numbers),
         ("HALVE_FALL(near, far)", [*fall, f"far.k{n} = real(0);"]),
     ]
 
@@ -263,13 +303,45 @@ def _mixed(
     """
 
     def row(x: int, of: Sequence[str]) -> str:
-        terms = [(number(float(matrix[x][x ^ i])), of[x ^ i]) for i in range(4)]
-        if not differences:
-            return " + ".join(f"{weight} * {place}" for weight, place in terms)
-        return f"{of[x]} + ({' + '.join(f'{weight} * ({place} - {of[x]})' for weight, place in terms[1:])})"
+        return _row_mixed(of, matrix, number, differences)[x]
 
     net = [places[4 * y : 4 * y + 4] for y in range(4)]
     half = [[f"h{4 * y + x}_" for y in range(4)] for x in range(4)]  # by columns
     across = [f"real {half[x][y]} = {row(x, net[y])};" for y in range(4) for x in range(4)]
     down = [f"{net[y][x]} = {row(y, half[x])};" for y in range(4) for x in range(4)]
     return ["{", *across, *down, "}"]
+
+
+def _row_mixed(
+    of: Sequence[str], matrix: Sequence[Row], number: Callable[[float], str], differences: bool
+) -> list[str]:
+    """Return the texts of a 4 by 4 matrix times the four numbers `of`; see _mixed."""
+    texts = []
+    for x in range(4):
+        terms = [(number(float(matrix[x][x ^ i])), of[x ^ i]) for i in range(4)]
+        if differences:
+            texts.append(f"{of[x]} + ({' + '.join(f'{weight} * ({place} - {of[x]})' for weight, place in terms[1:])})")
+        else:
+            texts.append(" + ".join(f"{weight} * {place}" for weight, place in terms))
+    return texts
+
+
+def _own_bounds(lanes: Sequence[str]) -> list[tuple[str, list[str]]]:
+    """Return the macros on bounds of fourth derivatives, of which each of a tile's lanes but the last has one."""
+    weights = []
+    for side, d in (("across", "u"), ("down", "v")):
+        for axis in "xyz":
+            weights.append(f"real {d}{axis}1_ = fabs(tile.{side}.{axis});")
+            weights += [f"real {d}{axis}{k}_ = {d}{axis}1_ * {d}{axis}{k - 1}_;" for k in (2, 3, 4)]
+    for lane, powers in zip(lanes, POWERS, strict=False):
+        products = [
+            " * ".join(f"{d}{axis}{power}_" for axis, power in zip("xyz", powers, strict=True) if power) for d in "uv"
+        ]
+        weights.append(f"{lane} = REMAINDER_X * ({products[0]}) + REMAINDER_Y * ({products[1]});")
+    weights.append(f"{lanes[-1]} = real(0);")
+    raised = [f"{v} = max({v}, grown * fourth_at(work, place + {k}));" for k, v in enumerate(lanes[:-1])]
+    return [
+        ("FIND_WEIGHTS(lanes, tile)", weights),
+        ("NO_BOUNDS(lanes)", [f"{v} = real(0);" for v in lanes]),
+        ("RAISE_BOUNDS(lanes, grown, place)", raised),
+    ]

@@ -68,7 +68,7 @@ def stage_program(
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
         own = _lane_sections(stage, precision, language, form)
         own += [wide_value(surface, precision, language), macros(surface, precision, language, held, stage)]
-        own += [*files(*_net_files(stage, form)), *_lane_tables(precision, language, form, stage)]
+        own += [*_lane_tables(precision, language, form, stage), *files(*_net_files(stage, form))]
     return stated.program(("surface_value",), shape, own)
 
 
@@ -165,14 +165,16 @@ def _lane_tables(precision: Precision, language: Language, form: Lanes, stage: T
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
     direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its
     node's place.
-    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives. Where a work item does the
-    lanes in turn, a row is a macro that reads its table, and a node's place follows from its column or row.
+    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives. Where a work item does
+    the lanes in turn, a row is a macro that reads its table, a node's place follows from its column or row, and
+    FIND_WEIGHTS has the powers.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     width = block_width(form)
     made = {"LANE_X": [float(k % width) for k in range(16)], "LANE_Y": [float(k // width) for k in range(16)]}
     made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
-    made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
+    if not _in_turn(stage, form):
+        made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
     for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]

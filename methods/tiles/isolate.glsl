@@ -44,23 +44,6 @@ int cell_of(real place, int side) {
     return clamp(int(place), 0, side - 1);
 }
 
-// Returns |v| to each lane's power, 0 to 4.
-wide power_of(wide power, real v) {
-    wide result = wide(1.0);
-    for (int k = 0; k < 4; k++) result = CHOOSE(MORE(power, wide(real(k))), fabs(v) * result, result);
-    return result;
-}
-
-// Returns each lane's factor of a fourth derivative in the bound of the remainder at depth 1.
-wide remainder_weight(Work work, Tile tile) {
-    wide x = lane_row(POWERS_X, 0);
-    wide y = lane_row(POWERS_Y, 0);
-    wide z = lane_row(POWERS_Z, 0);
-    wide across = power_of(x, tile.across.x) * power_of(y, tile.across.y) * power_of(z, tile.across.z);
-    wide down = power_of(x, tile.down.x) * power_of(y, tile.down.y) * power_of(z, tile.down.z);
-    return REMAINDER_X * across + REMAINDER_Y * down;
-}
-
 // Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives, one a
 // lane, that are looked up along the tile's middle ray in the table whose cells are 2^coarser times as long as those of
 // the finest. A cell's bounds hold one cell beyond it. So if the tile's rays are `aside` cells from the middle one, steps
@@ -79,9 +62,7 @@ real remainder_by(Work work, Frame frame, Tile tile, Lanes weights, real widest,
     int steps = N > 4 ? 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside))) : 0;
     real share = N > 4 ? 1.0 / real(steps) : 2.0;  // 2: the bound is taken at the largest depth
     Lanes bounds;
-    EACH_LANE {
-        KEEP_NUMBER(bounds, wide(0.0))
-    }
+    NO_BOUNDS(bounds)
     for (int k = 0; k <= steps; k++) {
         vec3 p = moved(a, share * real(k), way);
         int z = cell_of(cells * p.z + 0.5 * real(side), side);
@@ -90,15 +71,9 @@ real remainder_by(Work work, Frame frame, Tile tile, Lanes weights, real widest,
         int cell = N > 4 ? before + (z * side + y) * side + x : 0;
         real depth = frame.middle + min(start + share * (real(k) + 0.5) * (stop - start), stop);
         real grown = (depth * depth) * (depth * depth);
-        EACH_LANE {
-            RAISE_NUMBER(bounds, grown * fourth_row(work, 16 * cell))
-        }
+        RAISE_BOUNDS(bounds, grown, 16 * cell)
     }
-    real sum = 0.0;
-    EACH_LANE {
-        sum += total(NUMBER(weights) * NUMBER(bounds));
-    }
-    return sum;
+    return WEIGHED(weights, bounds);
 }
 
 // Bounds the remainder as remainder_by, by a finer table only where a coarser one leaves so much that it may decide:
@@ -181,7 +156,7 @@ int single_bits(int above, int below) {
 // Stage 1. Tiles of one level: each is empty, single (every ray has its first root in one piece, and no other root
 // there), or open, and then its four quarters are searched on the next level, or its pixels by stage 3.
 void isolate_tiles(Work work, Frame frame) {
-    Bundle stack[HALVINGS];
+    STACK(stack)
     int across = tiles_across(work.size, work.tile);
     int total = tiles_to_take(work);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
@@ -233,8 +208,8 @@ void isolate_tiles(Work work, Frame frame) {
             WideSpan span = wide_span(node.origin, node.direction, GAP * corner + rounding);
             near = min(near, least(span.lo));
             end = max(end, most(span.hi));
-            KEEP_NUMBER(weights, remainder_weight(work, tile))
         }
+        FIND_WEIGHTS(weights, tile)
         start = max(start, max(near, -frame.middle));
         stop = min(stop, end);
         if (stop <= start) stop = end;
@@ -273,20 +248,23 @@ void isolate_tiles(Work work, Frame frame) {
             path = 1;
             if (inner == SEARCHING) {
                 real weighted = 0.0;
-                EACH_LANE {
-                    WideRay node = node_ray(work, frame, tile);
-                    SAMPLE(s, node.origin, node.direction, start, reach)
-                    if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
-                    if (negative) SCALE(s, -1.0)
-                    FIT(s, c)
-                    weighted = max(weighted, most(WEIGHTED(s)));
-                    KEEP_LANE(net, c)
+                real spread = 0.0;
+                EACH_ROW {
+                    BEGIN_ROW(net)
+                    EACH_COLUMN {
+                        WideRay node = node_ray(work, frame, tile);
+                        SAMPLE(s, node.origin, node.direction, start, reach)
+                        if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
+                        if (negative) SCALE(s, -1.0)
+                        FIT(s, c)
+                        weighted = max(weighted, most(WEIGHTED(s)));
+                        KEEP_LANE(net, c)
+                        RAISE_SPREAD(net, c, spread)
+                    }
+                    END_ROW(net)
                 }
                 all_fits += 1;
                 spent += 16 * (N + 1);
-                real spread = 0.0;
-                FIND_SPREAD(net, spread)
-                CONTROL(net)
                 BUNDLED(net, bundle)
                 Errors errors;
                 errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
@@ -294,7 +272,9 @@ void isolate_tiles(Work work, Frame frame) {
                              + remainder_between(work, frame, tile, weights, widest, spread, start, stop);
                 errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
                                                         + MIXING * 2.0 * spread) + BALLAST * errors.unit;
+                HOLD(stack, bundle)
                 while (inner == SEARCHING) {
+                    GO_TO_PIECE(stack, bundle, far, path, depth)
                     real error = error_at(errors, depth);
                     all_pieces += 1;
                     if (ALL_ABOVE(bundle, error)) {
@@ -304,7 +284,7 @@ void isolate_tiles(Work work, Frame frame) {
                         } else {
                             depth -= up;
                             path = (path >> up) + 1;
-                            bundle = stack[depth - 1];
+                            TAKE_PIECE(stack, bundle, depth)
                         }
                     } else {
                         if (CROSSES(bundle, error)) {
@@ -316,8 +296,7 @@ void isolate_tiles(Work work, Frame frame) {
                         bool deepest = depth == HALVINGS || reach < shortest * real(1 << depth);
                         if (inner == SEARCHING && deepest) inner = OPEN;
                         if (inner == SEARCHING) {
-                            HALVE_BUNDLE(bundle, far)
-                            stack[depth] = far;
+                            HALVE_PIECE(stack, bundle, far, depth)
                             depth += 1;
                             path *= 2;
                         }
@@ -352,9 +331,7 @@ void isolate_tiles(Work work, Frame frame) {
                         verdict = SEARCHING;
                         tries = 0;
                         tile = other;
-                        EACH_LANE {
-                            KEEP_NUMBER(weights, remainder_weight(work, tile))
-                        }
+                        FIND_WEIGHTS(weights, tile)
                         widest = other_widest;
                         rim = RIM * 1.0009765625 * frame.far * corner_of(tile) + rounding;
                         start = (frame.middle + start) * (1.0 - share) - frame.middle - rounding;

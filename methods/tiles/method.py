@@ -130,7 +130,8 @@ LEANS were chosen on nine of these surfaces in this view.
                                                             most, and it is 0.5 of a frame at most
 
 And on opengl:llvmpipe, where the stage that isolates is what takes long to compile: processor time of its compiler on a
-busy machine, torus, sextic and 16-ball the least of two interleaved runs, the others single runs.
+busy machine, the least of two or three interleaved runs, some of them single ones. Most of what is left is LLVM's code
+generation: two thirds, and the allocation of registers a quarter, for the 16-ball in float64.
 
     what was tried                                          measured                                            kept
     ------------------------------------------------------  --------------------------------------------------  ----
@@ -138,9 +139,24 @@ busy machine, torus, sextic and 16-ball the least of two interleaved runs, the o
       turns of the loops over lanes in place of sixteen,    to 6.7 or no gain, float64 sextic 13 to 6.1, dense
       and what lanes list is no array                       polynomial of degree 8 about 16 to 5; isolation at
                                                             1024x1024 takes 0.76 to 0.94 times the time
-    loops over lanes that are not unrolled at all           isolation of the 16-ball compiles in 22 s: arrays   no
-                                                            that are indexed at run time; frames 1.12 to 1.35
-    the transform across is done as rows are sampled        no sooner compiled                                  no
+    loops over lanes that are not unrolled at all, whose    isolation of the 16-ball compiles in 22 s: arrays   no
+      numbers are in arrays                                 that are indexed at run time; frames 1.12 to 1.35
+    the transform across is done as rows are sampled        no sooner compiled while the loop over columns is   no
+                                                            unrolled
+    (this row and the next four: isolation, interleaved)    torus 0.78, sextic 0.78, 16-ball 0.83 of the time   yes
+      far halves are made anew from the whole piece, in
+      place of a stack, which is an array
+    nothing is unrolled and nothing is an array: queues     with the row before: torus 2.3 to 1.4 s, 16-ball    yes
+      of lanes and of rows; a column of the control net a   7.3 to 2.9, the octic 0.51 of the time; frames at
+      turn; what the rays differ by is found lane by        512x512 0.90 to 1.01 of the time, all bits alike
+      lane; weights and bounds of derivatives without a
+      loop
+    and SAMPLE is a loop where f is long (LONGEST)          dense polynomial of degree 16 0.69, of degree 8     yes
+                                                            0.9 of the time; isolation takes 1.1 and 1.0
+                                                            times as long, still 0.9 of what it was
+    LONGEST = 200 or 800 in place of 600                    degree 16: 0.97 and 1.0 times as long to compile    no
+    queues are set to 0, so that no turn of an outer loop   no sooner compiled                                  no
+      depends on the one before
     minima and maxima by comparisons                        no sooner compiled                                  no
 """
 
