@@ -14,7 +14,7 @@ from distributed.scheduler import KilledWorker, WorkerState
 
 from harness.cluster import engine as engines
 from harness.cluster import starting
-from harness.cluster.engine import Engine
+from harness.cluster.engine import SIGNS, Engine
 from harness.cluster.executor import LOSSES, ClusterExecutor
 from harness.cluster.places import Lost
 from harness.cluster.spread import ClusterSpread
@@ -89,6 +89,26 @@ def test_a_step_that_fails_at_once_is_taken_again_after_a_look_at_the_scheduler(
         assert executor._ask(INFO.name, "warm") == "taken" and len(looks) <= LOSSES
 
 
+def test_a_worker_that_lost_a_step_is_given_none_before_it_shows_signs_of_life(monkeypatch: pytest.MonkeyPatch) -> None:
+    signs = [0.0]
+    seen = Engine._seen
+
+    def heard(self: Engine, listed: dict[str, dict[str, Any]]) -> None:
+        seen(self, {address: told | {"last_seen": signs[-1]} for address, told in listed.items()})
+
+    monkeypatch.setattr(Engine, "_seen", heard)
+    with cluster([LAB1]) as (_, engine, _told):
+        until(lambda: engine.places())
+        place = engine.take(lambda _: True)
+        engine.look_again(place)  # as where its process has ended, which the scheduler does not know yet
+        engine.give_back(place)
+        for _ in range(SIGNS):
+            engine.look_again()
+            assert not engine.places() and engine.take(lambda _: True) is None
+            signs.append(signs[-1] + 1.0)
+        until(lambda: engine.take(lambda _: True) is place)
+
+
 def test_steps_go_through_the_scheduler_where_a_worker_is_not_reached(monkeypatch: pytest.MonkeyPatch) -> None:
     reaches, walls = Engine._reaches, [True]
     monkeypatch.setattr(Engine, "_reaches", lambda self, address: not walls and reaches(self, address))
@@ -101,6 +121,7 @@ def test_steps_go_through_the_scheduler_where_a_worker_is_not_reached(monkeypatc
             assert executor.warm(INFO.name, "k", None).batch == 1  # type: ignore[arg-type]
             walls.clear()
             engine.look_again(place)  # as where a step was lost
+            until(lambda: engine.client.direct_to_workers)
 
 
 def test_a_step_whose_process_was_given_up_is_taken_by_another_one() -> None:

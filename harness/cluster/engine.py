@@ -31,6 +31,7 @@ LOOK_SECONDS = 0.5  # between two looks at the scheduler
 ANSWER_SECONDS = 30.0  # for the scheduler to answer
 REACH_SECONDS = 3.0  # for a worker to answer this process without the scheduler
 SILENT_SECONDS = 30.0  # without a sign of life, after which a worker counts as lost
+SIGNS = 2  # of life, before a worker that lost a step is given another one: the first may be older than the loss
 PATIENCE_SECONDS = 120.0  # for which a lost device or scheduler is waited for
 
 
@@ -46,6 +47,7 @@ class _Worker:
     cores: float = 0.0
     silent: bool = False
     reached: bool | None = None  # whether it answers this process without the scheduler; None: not tried
+    doubted: int = 0  # signs of life that are still to come before its devices are lent again
 
 
 class Engine:
@@ -74,7 +76,6 @@ class Engine:
         self.problem: FirsthitError | None = None
         self._stopped = False
         self._told: set[str] = set()
-        self._doubted: set[str] = set()  # addresses of workers to which a step was lost
         self._last_change = time.monotonic()
         self._begun = self._looked = 0  # looks at the scheduler: how many began, and which one ended last
         self._ended = threading.Event()
@@ -166,11 +167,12 @@ class Engine:
     def look_again(self, place: Place | None = None) -> None:
         """Return once a look at the scheduler has ended that began after this, or a place is known to be lost.
 
-        So what failed a moment ago is not tried again with a worker that has gone. Raises as `check` does.
+        The worker of the place is doubted: its devices are lent again after SIGNS signs of life. So what failed a moment
+        ago is not tried again with a worker that has gone. Raises as `check` does.
         """
         with self._changed:
-            if place is not None:
-                self._doubted.add(place.address)
+            if place is not None and (worker := self._workers.get(place.address)):
+                worker.doubted, worker.reached = SIGNS, None
             begun = self._begun
             while self._looked <= begun and (place is None or place.gone is None):
                 self.check()
@@ -178,7 +180,7 @@ class Engine:
 
     def _listed(self) -> Iterator[Place]:
         """Yield the places that are there. Of two workers with one device of a machine, one counts."""
-        there = [place for worker in self._workers.values() for place in worker.places]
+        there = [place for worker in self._workers.values() if not worker.doubted for place in worker.places]
         usable = [place for place in there if place.gone is None and not place.info.problem]
         seen = set()
         for place in sorted(usable, key=lambda place: not place.busy):
@@ -213,14 +215,12 @@ class Engine:
                     worker = self._workers[address] = _Worker(self._asked(address, told["resources"]))
                 if told["last_seen"] != worker.seen:
                     worker.seen, worker.since = told["last_seen"], now
+                    worker.doubted = max(0, worker.doubted - 1)
                 elif now - worker.since > SILENT_SECONDS and not worker.silent:
                     worker.silent = True
                     self._lose(worker, f"its worker gave no sign of life for {SILENT_SECONDS:.0f} s")
                     worker.places = ()
                     threading.Thread(target=self._restart, args=(address,), daemon=True).start()
-            for address in self._doubted & self._workers.keys():
-                self._workers[address].reached = None
-            self._doubted.clear()
             heard = {address: one for address, one in self._workers.items() if one.asked and one.asked.done()}
             self._reach(heard.keys())
             for address, worker in heard.items():
@@ -238,6 +238,7 @@ class Engine:
     def _reach(self, heard: Collection[str]) -> None:
         """Let Dask go straight to the workers where this process reaches all of them, those that are `heard` too."""
         there = {a: one for a, one in self._workers.items() if (one.announced or a in heard) and not one.silent}
+        there = {address: worker for address, worker in there.items() if not worker.doubted}
         for address, worker in there.items():
             if worker.reached is None and all(other.reached is not False for other in there.values()):
                 worker.reached = self._reaches(address)

@@ -35,39 +35,42 @@ only.
 **Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
 
 **Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an AMD processor
-without AVX-512: `firsthit run configs/tiles.toml --device opencl:intel`, one interleaved run of four sizes at f573716,
-nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384 rays of each surface
-are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel; newton is wrong on 1,538.
-`largest` is the largest error of tiles over that of bernstein on the same rays.
+without AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run
+of four sizes at 5112ea8, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures.
+16,384 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and
+eft_yuksel; newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
-    clebsch       5.85   17.1       13.1        8.12    2.92            2.24             0.60
-    tangle        6.17   24.6       20.3        13.0    3.98            3.29             0.50
-    torus         6.24   19.0       16.3        6.87    3.05            2.61             0.53
-    Kummer        12.3   27.9       20.5        12.5    2.27            1.66             0.53
-    flirt         11.4   22.7       18.4        11.8    1.99            1.62             0.99
-    calyx         13.5   29.6       27.6        16.0    2.19            2.05             0.50
-    Barth sextic  13.9   38.1       54.9        19.9    2.74            3.95             1.2
-    Klein bottle  7.73   28.8       42.7        15.9    3.73            5.53             0.99
-    heart         9.14   30.0       45.0        18.0    3.29            4.93             0.99
-    chmutov       15.5   34.6       62.7        11.1    2.23            4.04             0.31
-    Endraß octic  35.3   82.7       130         29.9    2.34            3.69             0.85
-    Barth decic   43.6   107        196         34.6    2.45            4.50             0.58
-    16-ball       50.4   154        464         22.3    3.06            9.19             0.97
+    clebsch       5.89   17.7       13.3        8.21    3.00            2.25             0.596
+    tangle        5.90   25.3       19.3        12.7    4.30            3.27             0.502
+    torus         7.55   20.2       16.6        7.01    2.68            2.20             0.531
+    Kummer        9.63   28.3       21.1        12.5    2.94            2.19             0.53
+    flirt         7.53   23.4       18.5        11.7    3.11            2.46             0.99
+    calyx         12.7   32.2       29.7        16.6    2.53            2.34             0.501
+    Barth sextic  11.1   37.7       52.5        20.1    3.38            4.71             1.2
+    Klein bottle  7.90   30.6       44.0        16.2    3.88            5.56             0.994
+    heart         8.74   32.1       45.7        17.6    3.67            5.23             0.99
+    chmutov       14.8   32.4       60.2        10.6    2.19            4.07             0.306
+    Endraß octic  35.0   78.9       131         31.7    2.26            3.75             0.847
+    Barth decic   42.2   102        206         46.1    2.41            4.88             0.577
+    16-ball       38.0   145        465         17.3    3.82            12.2             0.967
 
 The larger the frame, the more it gains. Geometric means of the thirteen surfaces:
 
     pixels     over bernstein  least of them  over eft_yuksel  over newton
     ---------  --------------  -------------  ---------------  -----------
-    512x512    2.18            1.56           2.60             0.88
-    1024x1024  2.73            1.99           3.36             1.13
-    2048x2048  3.41            2.52           4.19             1.39
-    4096x4096  3.73            2.55           4.78             1.57
+    512x512    2.25            1.49           2.75             0.89
+    1024x1024  3.02            2.19           3.71             1.25
+    2048x2048  3.48            2.54           4.38             1.44
+    4096x4096  3.95            3.02           5.06             1.68
 
-Its time grows as the pixels to the power 0.84 in the mean (0.69 Barth decic to 0.93 tangle), bernstein's to the power
-0.97. 147 of the run's 520 cells were told to be noisy: the same config of nine surfaces at 1024x1024
-(configs/tiles-1024.toml) gave 2.41 over bernstein hours before.
+Its time grows as the pixels to the power 0.83 in the mean (0.71 Barth sextic to 0.95 torus), bernstein's to the power
+0.96. 96 of the run's 260 cells were told to be noisy.
+
+At 1024x1024 the refinement of single tiles' pixels is 0.6 of a frame of torus and Kummer, and 0.8 of flirt's. It is a
+few steps of Newton's method on f itself, and a mean of f over five points. There it alone takes more than a quarter of
+eft_yuksel's time. So on these three no isolation, however cheap, makes a frame four times as fast as eft_yuksel's.
 
 On opencl:pocl configs/tiles-1024.toml gave 3.97 over bernstein (3.04 octic to 7.16 16-ball), 4.44 over eft_yuksel and
 1.61 over newton, in two sittings at 27d91c5; no clear ray of tiles, bernstein and eft_yuksel is wrong.
