@@ -167,8 +167,8 @@ class Engine:
     def look_again(self, place: Place | None = None) -> None:
         """Return once a look at the scheduler has ended that began after this, or a place is known to be lost.
 
-        The worker of the place is doubted: its devices are lent again after SIGNS signs of life. So what failed a moment
-        ago is not tried again with a worker that has gone. Raises as `check` does.
+        The worker of the place is doubted: its devices are lent again after SIGNS signs of life. So what failed a
+        moment ago is not tried again with a worker that has gone. Raises as `check` does.
         """
         with self._changed:
             if place is not None and (worker := self._workers.get(place.address)):
