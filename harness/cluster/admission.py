@@ -131,7 +131,7 @@ def _opened(name: str) -> int:
 def _folder(parent: str) -> Path:
     """Return the folder of this user's locks on this machine. Raises FirsthitError where another user made it.
 
-    It is looked at once: nobody else can change a folder of mode 700, or what stands in its place in `parent`.
+    It is looked at once: nobody else can change a folder of mode 700, nor replace it where folders are sticky.
     """
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = Path(parent) / f"firsthit-{user}"
