@@ -22,10 +22,19 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Literal
 
-from harness.contract import Precision, as_float32
+from harness.contract import Precision, Surface, as_float32
 
 Basis = Literal["monomial", "bernstein"]
 MAX_DEGREE = 20
+
+
+def cannot_be_fitted(surface: Surface) -> str | None:
+    """Say why no polynomial can be fitted to a surface's function along a ray; None where one can."""
+    if surface.degree is None:
+        return "not algebraic: along a ray it is no polynomial, which the fit would have to be"
+    if 1 <= surface.degree <= MAX_DEGREE:
+        return None
+    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
 
 
 def _rounded(value: Fraction, precision: Precision) -> Fraction:

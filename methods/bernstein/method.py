@@ -151,36 +151,15 @@ horn torus (analytic and newton are there) and, at 512x512, the spindle torus (n
 """
 
 from collections.abc import Mapping
-from math import comb
 
 from harness.contract import Method, Parameter, Precision, Surface
-
-MAX_DEGREE = 20
-SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
-DEPTHS = 6  # halvings for which the tables say how errors grow; further ones change nothing
-COORDINATES = 6.0  # error of a point's coordinates, in unit roundoffs of its distance from the centre
+from harness.kernels.fitting import cannot_be_fitted
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.kernels.fitting import fit_tables, inverse
-    from harness.kernels.rounding import sample_errors_grow, value_errors
+    from harness.kernels.isolating import isolation_tables
 
-    assert surface.degree is not None
-    matrix = inverse(surface.degree, "bernstein", precision)
-    return fit_tables(surface.degree, "bernstein", precision) | {
-        "VALUE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES)),
-        "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
-        "COLUMNS": [max(float(abs(row[i])) for row in matrix) for i in range(surface.degree + 1)],
-        "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
-    }
-
-
-def _accepts(surface: Surface) -> str | None:
-    if surface.degree is None:
-        return "not algebraic: along a ray it is no polynomial, which the fit would have to be"
-    if 1 <= surface.degree <= MAX_DEGREE:
-        return None
-    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
+    return isolation_tables(surface, precision)
 
 
 METHOD = Method(
@@ -231,6 +210,6 @@ METHOD = Method(
         Parameter("MAX_EVALUATIONS", 4096, "evaluations of f on one ray, after which the ray is exhausted"),
     ),
     claims=frozenset({"no_false_hit"}),
-    accepts=_accepts,
+    accepts=cannot_be_fitted,
     tables=_tables,
 )

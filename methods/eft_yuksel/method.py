@@ -77,8 +77,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 from harness.contract import Method, Parameter, Precision, Surface
+from harness.kernels.fitting import cannot_be_fitted
 
-MAX_DEGREE = 20
 PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX": 0}
 
 
@@ -89,14 +89,6 @@ def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Preci
     basis: Literal["monomial", "bernstein"] = "bernstein" if knobs["BASIS"] == 1 else "monomial"
     tables = fit_tables(surface.degree, basis, precision) | whole_tables(surface.degree, basis, precision)
     return tables | {"FACTORS": derivative_factors(surface.degree, basis)}
-
-
-def _accepts(surface: Surface) -> str | None:
-    if surface.degree is None:
-        return "not algebraic: along a ray it is no polynomial, which the fit would have to be"
-    if 1 <= surface.degree <= MAX_DEGREE:
-        return None
-    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
 
 
 METHOD = Method(
@@ -151,6 +143,6 @@ METHOD = Method(
         "Bernstein": PRINTED | {"BASIS": 1},
     },
     claims=frozenset({"no_false_hit"}),
-    accepts=_accepts,
+    accepts=cannot_be_fitted,
     tables=_tables,
 )

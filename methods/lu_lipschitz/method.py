@@ -108,8 +108,8 @@ fewer evaluations than the printed setting on all four surfaces, but computes th
 from collections.abc import Mapping
 
 from harness.contract import Method, Parameter, Precision, Surface
+from harness.kernels.fitting import cannot_be_fitted
 
-MAX_DEGREE = 20
 PRINTED = {"SIDES": 2, "LOCAL": 0, "TOLERANCE": 2.0**-16, "TRUST": 0.0, "MATRIX": 0}
 SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
 DEPTHS = 6  # halvings for which the tables say how errors grow; further ones change nothing
@@ -127,14 +127,6 @@ def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Prec
         "GROWTH": sample_errors_grow(surface.degree, precision, 0),
         "SLOPE_GROWTH": slope_errors_grow(surface.degree, precision, DEPTHS),
     }
-
-
-def _accepts(surface: Surface) -> str | None:
-    if surface.degree is None:
-        return "not algebraic: along a ray it is no polynomial, whose derivative the bounds are of"
-    if 1 <= surface.degree <= MAX_DEGREE:
-        return None
-    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
 
 
 METHOD = Method(
@@ -186,6 +178,6 @@ METHOD = Method(
         "LU bound on subintervals": PRINTED | {"BOUND": 1, "CULL": 1, "LOCAL": 2},
     },
     claims=frozenset({"conservative_bound", "no_false_hit"}),
-    accepts=_accepts,
+    accepts=cannot_be_fitted,
     tables=_tables,
 )

@@ -165,39 +165,21 @@ generation: two thirds, and the allocation of registers a quarter, for the 16-ba
 """
 
 from collections.abc import Mapping
-from math import comb
 
 from harness.contract import Method, Parameter, Precision, Surface
+from harness.kernels.fitting import cannot_be_fitted
 
-MAX_DEGREE = 20
-SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
-DEPTHS = 6  # halvings for which the tables say how errors grow
 COORDINATES = 12.0  # error of a node ray's point, in unit roundoffs of its distance from the centre
 REST = "of a pixel that is cast by itself:"
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.kernels.fitting import fit_tables, inverse
-    from harness.kernels.rounding import sample_errors_grow, value_errors
+    from harness.kernels.isolating import SHELLS, isolation_tables
+    from harness.kernels.rounding import value_errors
     from harness.kernels.tiles import REACH
 
-    assert surface.degree is not None
-    matrix = inverse(surface.degree, "bernstein", precision)
-    return fit_tables(surface.degree, "bernstein", precision) | {
-        "TILE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES, REACH)),
-        "VALUE_ERRORS": list(value_errors(surface, SHELLS, 6.0)),
-        "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
-        "COLUMNS": [max(float(abs(row[i])) for row in matrix) for i in range(surface.degree + 1)],
-        "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
-    }
-
-
-def _accepts(surface: Surface) -> str | None:
-    if surface.degree is None:
-        return "not algebraic: along a ray it is no polynomial, which the fit would have to be"
-    if 1 <= surface.degree <= MAX_DEGREE:
-        return None
-    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
+    tile_errors = value_errors(surface, SHELLS, COORDINATES, REACH)
+    return isolation_tables(surface, precision) | {"TILE_ERRORS": list(tile_errors)}
 
 
 METHOD = Method(
@@ -264,6 +246,6 @@ METHOD = Method(
         Parameter("MAX_EVALUATIONS", 4096, f"{REST} evaluations of f, after which it is exhausted"),
     ),
     claims=frozenset({"no_false_hit"}),
-    accepts=_accepts,
+    accepts=cannot_be_fitted,
     tables=_tables,
 )
