@@ -104,9 +104,7 @@ def _on_same_rays(both: pd.DataFrame) -> pd.Series:
     Returns bool with the index of `both`.
     """
     checked = both["accuracy_rays_a"].notna() & both["accuracy_rays_b"].notna()
-    same = (both["accuracy_rays_a"] == both["accuracy_rays_b"]) & (
-        both["grazing_margin_a"] == both["grazing_margin_b"]
-    )
+    same = (both["accuracy_rays_a"] == both["accuracy_rays_b"]) & (both["grazing_margin_a"] == both["grazing_margin_b"])
     return ~checked | same.fillna(False).astype(bool)
 
 

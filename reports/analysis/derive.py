@@ -18,6 +18,7 @@ from reports.analysis import rounds
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 _DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
+TOO_WRONG = "wrong on "  # how the reason begins of a row that is not timed since too many of its judged rays are wrong
 FLOOR_FACTOR = 2.0  # a time below this many times the null method's is more the harness's than the method's
 
 
@@ -86,6 +87,15 @@ def contenders(frame: pd.DataFrame, names: Sequence[str] | None = None) -> pd.Da
     order = order.sort_values([*GROUP, "median_ms"], kind="stable")
     told = frame if names is None else frame[list(names)]
     return told.take(np.flatnonzero(there)[order.index.to_numpy()])
+
+
+def is_judged(frame: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether its answers were judged: it ended well, or failed because too many of them are wrong.
+
+    Returns bool with the index of `frame`.
+    """
+    too_wrong = (frame["status"] == CellStatus.FAILED) & frame["reason"].fillna("").str.startswith(TOO_WRONG)
+    return ((frame["status"] == CellStatus.OK) | too_wrong) & frame["wrong_rays"].notna()
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:
