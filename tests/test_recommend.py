@@ -181,6 +181,23 @@ def test_stored_rows_are_used_again(tmp_path, info):
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "cells").iterdir()} == written
 
 
+def test_times_of_an_earlier_search_are_not_compared_with_new_ones(tmp_path, info):
+    wish, plugins = Wish(surfaces.get("sphere"), ERROR), find_methods().plugins
+    catalog = Catalog({name: plugins[name] for name in ("newton", "yuksel")})
+    newton, yuksel = (catalog.get(name).variant({}) for name in catalog.plugins)
+    executor = LocalExecutor(60.0)
+    try:
+        with Lock(tmp_path, "t") as lock:
+            made = Search(wish, catalog, info, executor, lock, Watcher())
+            earlier = made._rows([newton], "float32", View("front"), 16, 0.01, 8)
+            both = made._rows([newton, yuksel], "float32", View("front"), 16, 0.01, 8)
+            assert made._rows([newton, yuksel], "float32", View("front"), 16, 0.01, 8) == both, "stored, and not again"
+    finally:
+        executor.close()
+    sessions = {row["time"]["session"] for row in both.values()}
+    assert len(sessions) == 1 and earlier[newton]["time"]["session"] not in sessions
+
+
 def test_float64_is_tried_where_no_float32_variant_holds(tmp_path, info):
     if not info.float64:
         pytest.skip("the device has no float64")
