@@ -13,10 +13,10 @@ from harness.accuracy.check import too_wrong
 from harness.contract import digest
 from reports.analysis import choices, derive, shown, ties
 from reports.content import Matrix, Text
-from reports.drawing import choice, trades_tables, who_is_right
+from reports.drawing import choice, surface_tables, trades_tables, who_is_right
 from reports.parts import devices_compared, instance_scenes, who_breaks_where, winners
 from reports.reading import load
-from tests.synthetic_run import cell, printed, retime, tiny_run
+from tests.synthetic_run import cell, printed, retime, sampled, tiny_run
 from tests.test_report_scenes import row as scene_row
 
 
@@ -149,3 +149,13 @@ def test_the_first_table_says_whose_times_are_noisy(tmp_path: Path) -> None:
     found = choices.choices(frame(tmp_path / "run", steady, noisy))
     assert choice.made(found, False).caption.count("Noisy or drifting times") == 1
     assert "ratios are rough: Sphere." in choice.made(found, False).caption
+
+
+def test_a_single_sample_has_no_interval(tmp_path: Path) -> None:
+    made = [sampled(row(method, 1.0), [1.0] * count) for method, count in (("newton", 1), ("sturm", 6))]
+    rows = frame(tmp_path / "run", *made)
+    table = surface_tables.compact_table(rows)
+    assert table is not None
+    told = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
+    assert {line[0]: line[2] for line in told} == {"Newton": "–", "Sturm": "0.0 %"}
+    assert choices.choices(rows)[0].tied[0] == ("Sturm",)

@@ -26,9 +26,9 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     """Return `frame` with the columns of harness.results.schema.DERIVED, and without the accuracy of null methods.
 
     `peaks` has for each device, where it is known, the measured peak rate of float32 multiply-adds, in 1e9 operations
-    per second. Three figures are left empty where they would mislead: an overhead, unless it is over the device's own
+    per second. Four figures are left empty where they would mislead: an overhead, unless it is over the device's own
     clock and positive; a speed-up, unless both rows answer every ray away from silhouettes rightly; a share of a peak
-    above 1, which sets `peak_too_low` instead.
+    above 1, which sets `peak_too_low` instead; the ends of a median's interval, where it has too few samples for one.
     """
     given, answers = frame, frame["answers"].astype(bool)
     silent = np.flatnonzero(~answers)
@@ -38,6 +38,9 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
         if (older := frame[name].isna() & frame["misses"].notna()).any():
             frame[name] = frame[name].mask(older, 0)
             changed.add(name)
+    if (few := frame["median_ms"].notna() & ~rounds.proved(frame["samples_ms"])).any():
+        frame = frame.assign(**{name: frame[name].mask(few) for name in ("lower_ms", "upper_ms")})
+        changed |= {"lower_ms", "upper_ms"}
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
