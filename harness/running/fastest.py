@@ -87,8 +87,8 @@ def _named(part: Experiment, found: list[DeviceInfo], tried: Mapping[str, Tried]
     slowed = [name for name in rivals if (own := tried[name][1]) and own.peak_median_gflops < STEADY * own.peak_gflops]
     if slowed:
         told[
-            f"that choice is not certain: other programs slowed the probe of {', '.join(slowed)} down, and its peak may "
-            "be higher; name a device, or let an idle machine measure anew with `firsthit devices --again`"
+            f"that choice is not certain: other programs slowed the probe of {', '.join(slowed)} down, and its peak "
+            "may be higher; name a device, or let an idle machine measure anew with `firsthit devices --again`"
         ] = None
     return replace(
         part,
