@@ -13,7 +13,7 @@ from harness.accuracy.check import too_wrong
 from harness.contract import digest
 from reports.analysis import choices, derive, shown, ties
 from reports.content import Matrix, Text
-from reports.drawing import choice, surface_tables, trades_tables, who_is_right
+from reports.drawing import charts, choice, surface_tables, trades_tables, who_is_right
 from reports.parts import devices_compared, instance_scenes, who_breaks_where, winners
 from reports.reading import load
 from tests.synthetic_run import cell, printed, retime, sampled, tiny_run
@@ -159,3 +159,5 @@ def test_a_single_sample_has_no_interval(tmp_path: Path) -> None:
     told = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
     assert {line[0]: line[2] for line in told} == {"Newton": "–", "Sturm": "0.0 %"}
     assert choices.choices(rows)[0].tied[0] == ("Sturm",)
+    explored = charts.explorer(rows)
+    assert explored is not None and explored.columns["low"] == [None, 1.0] == explored.columns["high"]
