@@ -6,6 +6,8 @@ run must have only one device.
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -46,9 +48,11 @@ def build(a: Path, b: Path, output: Path | None = None) -> Path:
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
     """Return the cells that both runs have, a row for each, and the names of the columns by which they match.
 
-    A column of A ends in _a, one of B in _b. `ratio` is B's time over A's; `ratio_low` and `ratio_high` are its ends by
-    the intervals of both medians, NaN where one has too few samples for an interval. Raises FirsthitError if no cell
-    matches, or if the runs share no device and one has several.
+    A column of A ends in _a, one of B in _b. `ratio` is B's time over A's, NaN where they are by different clocks;
+    `ratio_low` and `ratio_high` are its ends by the intervals of both medians, NaN where one has too few samples for an
+    interval. `alike` tells where both were checked on the same rays, so that counts and errors can be compared. Cells
+    of one name that show another surface, or from elsewhere, do not match. Raises FirsthitError if no cell matches, or
+    if the runs share no device and one has several.
     """
     frames = [derive.derive(run.frame).assign(scene=_scenes(run.frame)) for run in (a, b)]
     devices = [set(frame["device"]) for frame in frames]
@@ -64,12 +68,44 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
         raise FirsthitError(
             f"{a.folder} and {b.folder} have no cell in common: no scene, variant and precision in both"
         )
-    proved = rounds.proved(both["samples_ms_a"]) & rounds.proved(both["samples_ms_b"])
+    same = [_is_same(*pair) for pair in zip(both["identity_a"], both["identity_b"], strict=True)]
+    both = both[same].reset_index(drop=True)
+    if both.empty:
+        raise FirsthitError(
+            f"the cells of one name in {a.folder} and {b.folder} show different surfaces or views: none can be compared"
+        )
+    one_clock = both["clock_a"] == both["clock_b"]
+    proved = rounds.proved(both["samples_ms_a"]) & rounds.proved(both["samples_ms_b"]) & one_clock
     return both.assign(
-        ratio=both["median_ms_b"] / both["median_ms_a"],
+        ratio=(both["median_ms_b"] / both["median_ms_a"]).where(one_clock),
         ratio_low=(both["lower_ms_b"] / both["upper_ms_a"]).where(proved),
         ratio_high=(both["upper_ms_b"] / both["lower_ms_a"]).where(proved),
+        alike=_on_same_rays(both),
     ), by
+
+
+def _is_same(a: Any, b: Any) -> bool:
+    """Tell whether two identities are of the same surface from the same place, by what both of them say."""
+    if wording.absent(a) or wording.absent(b):
+        return True
+    first, second = json.loads(a), json.loads(b)
+    pairs = ((first.get(part) or {}, second.get(part) or {}) for part in ("surface", "view"))
+    return all(_agree(*pair) for pair in pairs)
+
+
+def _agree(a: Mapping[str, Any], b: Mapping[str, Any]) -> bool:
+    """Tell whether two tables have the same values under the keys of both, but for names and sets of views."""
+    return all(a[key] == b[key] for key in (a.keys() & b.keys()) - {"name", "set"})
+
+
+def _on_same_rays(both: pd.DataFrame) -> pd.Series:
+    """Tell for each pair whether both cells were checked on the same rays, in the same classes, or one was not at all.
+
+    Returns bool with the index of `both`.
+    """
+    checked = both["accuracy_rays_a"].notna() & both["accuracy_rays_b"].notna()
+    same = (both["accuracy_rays_a"] == both["accuracy_rays_b"]) & (both["grazing_margin_a"] == both["grazing_margin_b"])
+    return ~checked | same.fillna(False).astype(bool)
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:
@@ -84,7 +120,7 @@ def report(a: Run, b: Run) -> Document:
     """Make the report on what changed from A to B. Raises FirsthitError as `paired` does."""
     both, by = paired(a, b)
     timed = both[both["ratio"].notna()]
-    faster = timed[(timed["ratio_high"] < 1.0) & ~(_error_change(timed) > 0)]
+    faster = timed[(timed["ratio_high"] < 1.0) & timed["alike"] & ~(_error_change(timed) > 0)]
     slower = timed[timed["ratio_low"] > 1.0]
     worse, better = both[_error_change(both) > 0], both[_error_change(both) < 0]
     verdict = (
@@ -96,7 +132,7 @@ def report(a: Run, b: Run) -> Document:
         "Clearly: the 95 % intervals of both medians, of 6 samples or more, do not meet, and what is faster answers no "
         "more rays wrongly. The two runs were not timed in turns, so that a "
         "machine that was busier during one of them changes every ratio alike; the ratio's median over all cells is "
-        f"{wording.factor(timed['ratio'].median())}."
+        f"{wording.factor(timed['ratio'].median())}.{_not_compared(a, b, both, by)}"
     )
     blocks: list[Block] = [Text(verdict, strong=True), Text(caution), _runs(a.plan, b.plan)]
     order = timed.assign(size_of_change=(timed["ratio"] - 1.0).abs()).sort_values("size_of_change", ascending=False)
@@ -116,9 +152,25 @@ def report(a: Run, b: Run) -> Document:
     return Document(title, f"A: {a.folder} · B: {b.folder}", Section("Summary", tuple(blocks)), tuple(sections))
 
 
+def _not_compared(a: Run, b: Run, both: pd.DataFrame, by: list[str]) -> str:
+    """Say, with a space before it, how many cells of one name are not compared, or not by their times or answers."""
+    names = [set(run.frame.assign(scene=_scenes(run.frame))[by].itertuples(index=False, name=None)) for run in (a, b)]
+    others = len(names[0] & names[1]) - len(both)
+    clocks = int(((both["clock_a"] != both["clock_b"]) & both["clock_a"].notna() & both["clock_b"].notna()).sum())
+    rays = int((~both["alike"]).sum())
+    told = [f"{wording.plural(others, 'cell')} of one name, of another surface or view"] if others else []
+    told += [f"the times of {wording.plural(clocks, 'cell')}, which are by different clocks"] if clocks else []
+    told += [f"the answers of {wording.plural(rays, 'cell')}, which were checked on other rays"] if rays else []
+    return f" Not compared: {wording.listed(told)}." if told else ""
+
+
 def _error_change(both: pd.DataFrame) -> pd.Series:
-    """Return for each row how many more rays B answers wrongly than A, as float64; 0 where one does not tell."""
-    return (both["wrong_rays_b"].astype("float64") - both["wrong_rays_a"].astype("float64")).fillna(0.0)
+    """Return for each row how many more rays B answers wrongly than A, as float64.
+
+    0 where one does not tell, and where other rays were checked.
+    """
+    more = both["wrong_rays_b"].astype("float64") - both["wrong_rays_a"].astype("float64")
+    return more.where(both["alike"]).fillna(0.0)
 
 
 def _runs(a: Plan, b: Plan) -> Table:
@@ -171,7 +223,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
     for row in tuples(both):
         a, b = ([getattr(row, f"{name}_{side}") for name in fields] for side in "ab")
         status = "" if row.status_a == row.status_b else f"{row.status_a} → {row.status_b}"
-        if status or any(not _same(x, y) for x, y in zip(a, b, strict=True)):
+        if status or (row.alike and any(not _same(x, y) for x, y in zip(a, b, strict=True))):
             pairs = [value for pair in zip(a, b, strict=True) for value in pair]
             body.append((*(getattr(row, name) for name in by), status, *pairs))
     shows = (

@@ -9,6 +9,7 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
+from reports.analysis import derive
 from reports.analysis.choices import Choice
 from reports.claims import Outcome
 from reports.content import Block, Column, Section, Table, Text
@@ -58,7 +59,8 @@ def _timed(material: Material, found: Sequence[Choice]) -> list[Block]:
     height -= LESS * (bool(about) + (len(found) > PANELS))
     figure = multiples.figure(drawn, material.method_marks, height, material.focus_method)
     blocks += [figure] if figure else []
-    blocks.append(choice.made(telling, several, len(found)))
+    scenes = int(material.listed.loc[derive.is_contender(material.listed), "comparison"].nunique())
+    blocks.append(choice.made(telling, several, len(found), scenes))
     return blocks
 
 

@@ -102,6 +102,24 @@ def test_the_word_makes_the_cells_that_the_name_makes(tmp_path, peaks):
     assert heard.lines[-1] == ("the fastest device is opencl:quick, with a peak of 20 Gflop/s (opencl:slow 10)")
 
 
+def test_a_device_that_may_be_faster_on_an_idle_machine_is_told_of(tmp_path, monkeypatch):
+    monkeypatch.setattr(fastest.kept_answers, "probes_folder", lambda: None)
+    rates = {"opencl:slowed": (28.0, 7.0), "opencl:quick": (60.0, 30.0), "opencl:steady": (20.0, 19.0)}
+
+    def probed(_executor, device, _cache):
+        peak, median = rates[device.name]
+        return device, replace(PROBES, peak_gflops=peak, peak_median_gflops=median)
+
+    monkeypatch.setattr(fastest, "probed", probed)
+    heard = Heard()
+    settled([load(tmp_path)], [info(name) for name in rates], heard)
+    assert "other programs slowed the probe of opencl:slowed down" in heard.lines[-1]
+    settled([load(tmp_path)], [info("opencl:quick"), info("opencl:steady")], heard := Heard())
+    assert heard.lines[-1].startswith("the fastest device is opencl:quick"), "the winner's own peak can only be higher"
+    settled([load(tmp_path)], [info("opencl:slowed"), info("opencl:quick", 1024)], heard := Heard())
+    assert heard.lines[-1].startswith("the fastest device is opencl:quick"), "a GPU comes first anyway"
+
+
 def test_a_config_without_the_word_measures_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(fastest, "LocalExecutor", None)
     part = load(tmp_path, CONFIG.replace("fastest", "any"))

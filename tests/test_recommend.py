@@ -14,7 +14,7 @@ from harness.devices.executor import LocalExecutor
 from harness.oracle import first_hits
 from harness.plugins import Catalog, find_methods
 from harness.recommend import candidates, search, telling
-from harness.recommend.model import Cause, Fallen, Wish
+from harness.recommend.model import Cause, Contender, Fallen, Recommendation, Wish
 from harness.recommend.search import Search, certified_error
 from harness.results.lock import Lock
 from harness.running.run import Watcher
@@ -179,6 +179,38 @@ def test_stored_rows_are_used_again(tmp_path, info):
     written = {path: path.stat().st_mtime_ns for path in (tmp_path / "cells").iterdir()}
     assert _search(tmp_path, info, surface, ("newton",)).contenders == first.contenders
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "cells").iterdir()} == written
+
+
+def test_times_of_an_earlier_search_are_not_compared_with_new_ones(tmp_path, info):
+    wish, plugins = Wish(surfaces.get("sphere"), ERROR), find_methods().plugins
+    catalog = Catalog({name: plugins[name] for name in ("newton", "yuksel")})
+    newton, yuksel = (catalog.get(name).variant({}) for name in catalog.plugins)
+    executor = LocalExecutor(60.0)
+    try:
+        with Lock(tmp_path, "t") as lock:
+            made = Search(wish, catalog, info, executor, lock, Watcher())
+            earlier = made._rows([newton], "float32", View("front"), 16, 0.01, 8)
+            both = made._rows([newton, yuksel], "float32", View("front"), 16, 0.01, 8)
+            assert made._rows([newton, yuksel], "float32", View("front"), 16, 0.01, 8) == both, "stored, and not again"
+    finally:
+        executor.close()
+    sessions = {row["time"]["session"] for row in both.values()}
+    assert len(sessions) == 1 and earlier[newton]["time"]["session"] not in sessions
+
+
+@pytest.mark.parametrize(("factor", "alike"), [(1.0, True), (1.2, False)])
+def test_what_is_not_told_apart_from_the_fastest_is_said(tmp_path, info, factor, alike):
+    wish, catalog = Wish(surfaces.get("sphere"), ERROR), find_methods()
+    newton, yuksel = (catalog.get(name).variant({}) for name in ("newton", "yuksel"))
+    made = Search(wish, catalog, info, None, Lock(tmp_path, "t"), Watcher())
+    for view in range(2):
+        ups = [1.0 + 0.01 * (-1) ** (at + at // 2) for at in range(8)]
+        made._times.append({newton: {"rounds": [*range(8)], "samples_ms": [1.0 + view] * 8}})
+        made._times[-1][yuksel] = {"rounds": [*range(8)], "samples_ms": [factor * (1.0 + view) * up for up in ups]}
+    assert made._alike(yuksel, newton) is alike
+    contenders = [Contender(one, "float32", ms, 1e-6, 9.0) for one, ms in ((newton, 1.0), (yuksel, factor))]
+    found = Recommendation(info, contenders, alike=[yuksel] if alike else [])
+    assert ("Its time is not told apart from that of yuksel." in telling.answer(found, wish)) is alike
 
 
 def test_float64_is_tried_where_no_float32_variant_holds(tmp_path, info):

@@ -204,7 +204,7 @@ def test_the_winners_matrix_names_method_and_time_and_notes_ties(tmp_path: Path)
     assert rows["Torus"][0].color == style.pale(style.marks(["newton"])["newton"].color, 0.68)
     assert [square.text for square in rows["Sphere"]] == ["all wrong\nsomewhere", "–"]
     told = printed(section.blocks)
-    assert "opencl:pocl | 2 | 2.62× | 0.750× | 4.50× | Sturm on Torus; Newton on Torus" in told
+    assert "opencl:pocl | 2 | 2.63× | 0.751× | 4.51× | Sturm on Torus; Newton on Torus" in told
 
 
 # ---- focus

@@ -202,8 +202,8 @@ def test_the_first_page_says_which_pictures_its_times_are_of(tmp_path: Path) -> 
     ]
     table = choice.table(framed(tmp_path / "run", *cells))
     assert table is not None
-    assert table.rows[0][:3] == ("Torus", "Newton", 1.0), "the plan's first of equally full scenes"
-    assert "View front, 64 × 64" in table.caption
+    assert table.rows[0][:3] == ("Torus", "Newton", 2.0), "the largest picture of equally full scenes"
+    assert "View front, 128 × 128" in table.caption
     assert table.title == "Which method, at which error, on opencl:intel."
 
 

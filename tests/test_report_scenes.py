@@ -30,6 +30,7 @@ def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0)
         "method": variant.split()[0],
         "parameters": "{}",
         "proxy": "box",
+        "normal": "distance",
         "origin": "nearest",
         "variant": variant,
         "label": variant.capitalize(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, digest
 from reports import compare, parts, report
 from reports.analysis import derive
 from reports.analysis.scene_names import scene_names
@@ -69,6 +70,34 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
     assert len(both) == 1
     with pytest.raises(FirsthitError, match="no cell in common"):
         compare.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))
+
+
+def test_what_was_asked_otherwise_or_timed_by_another_clock_is_not_compared(tmp_path: Path) -> None:
+    def identified(finished: dict[str, Any], **asked: Any) -> dict[str, Any]:
+        identity = {"surface": {"formula": "x", "domain": "1"}, "view": {"name": "front", "azimuth": 30.0}} | asked
+        return finished | {"identity": identity, "key": digest(finished["slot"], identity)}
+
+    names = ("ray_march", "newton[EPSILON=0.001]")
+    cells = [identified(cell(name, "torus", "opencl:intel", "float32")) for name in names]
+    first = load.load(tiny_run(tmp_path / "a", *cells))
+    moved = identified(cells[1], view={"name": "front", "azimuth": 60.0})
+    told = printed(compare.report(first, load.load(tiny_run(tmp_path / "b", cells[0], moved))).summary.blocks)
+    assert "Of 1 cell in both runs" in told and "Not compared: 1 cell of one name, of another surface or view." in told
+    cut = identified(cells[1], surface={"formula": "x", "domain": "2"})
+    with pytest.raises(FirsthitError, match="show different surfaces or views"):
+        compare.paired(first, load.load(tiny_run(tmp_path / "c", cut)))
+    slow = retime(copy.deepcopy(cells[0]), 9 * cells[0]["time"]["median_ms"])
+    slow["time"] |= {"clock": "wall"}
+    told = printed(compare.report(first, load.load(tiny_run(tmp_path / "d", slow, cells[1]))).summary.blocks)
+    assert "slower in 0 and clearly faster in 0 of 1 timed ones" in told
+    assert "the times of 1 cell, which are by different clocks" in told
+    more = copy.deepcopy(cells[0])
+    more["accuracy"] |= {"misses": 7, "truth_misses": more["accuracy"]["truth_misses"] + 97}
+    more["accuracy"] |= {"size": 49, "rays": 49**2}
+    document = compare.report(first, load.load(tiny_run(tmp_path / "e", retime(more, 1e-3), cells[1])))
+    told = printed(document.summary.blocks)
+    assert "clearly faster in 0 of 2 timed ones; it answers more rays wrongly in 0" in told
+    assert "the answers of 1 cell, which were checked on other rays" in told
 
 
 def test_a_comparison_names_the_files_that_it_cannot_read(tmp_path: Path) -> None:

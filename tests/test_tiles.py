@@ -242,3 +242,10 @@ def test_a_shot_of_tiles_is_the_image_of_listed_rays_and_has_the_devices_form_of
     plugin = catalog.get("stand_in")
     with pytest.raises(FirsthitError, match="casts the tiles of a camera's image, and listed rays have none"):
         cast(Caster(plugin, plugin.variant({}), device.info.name), TORUS, rays_of(camera, 20))
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_lay_in_the_buffer_of_a_pixel_without_a_hit_is_no_warning():
+    signalling = np.array([0x7FA00000], np.uint32).view(np.float32)
+    hits, _ = tile_hits_from([signalling, np.array([int(RayStatus.MISS)], np.int32)])
+    assert hits.status.tolist() == [RayStatus.MISS] and np.isnan(hits.t).all()

@@ -188,7 +188,7 @@ def _table(found: Recommendation, wish: Wish) -> str:
             named(c.variant),
             c.precision,
             f"{c.ms:.3g}",
-            f"{c.ms / best.ms:.3g}",
+            f"{'≈ ' if c.variant in found.alike else ''}{c.ms / best.ms:.3g}",
             f"{c.error:.2g}",
             f"{c.evaluations:.4g}",
             ", ".join(c.claims) or "none",

@@ -141,6 +141,7 @@ class Recommendation:
 
     contenders: the variants within bounds, the fastest first; none where no variant holds
     fallen: all others
+    alike: the contenders whose times are not told apart from the first one's
     held_out: how many rays were judged on the held-out views
     decided, undecided: how many hits the oracle decided and left undecided, on all views
     extent: a sentence where the domain cuts the surface, so that another surface was searched for than may be meant
@@ -151,6 +152,7 @@ class Recommendation:
     device: DeviceInfo
     contenders: list[Contender] = field(default_factory=list)
     fallen: list[Fallen] = field(default_factory=list)
+    alike: list[Variant] = field(default_factory=list)
     held_out: int = 0
     decided: int = 0
     undecided: int = 0

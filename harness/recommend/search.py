@@ -6,9 +6,13 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from harness.accuracy.judge import NAMES
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Precision, Variant, View, digest, plural
@@ -19,6 +23,7 @@ from harness.experiment.size import asked
 from harness.plugins import Catalog
 from harness.recommend.candidates import count, variants, views
 from harness.recommend.model import Cause, Contender, Fallen, Quantile, Recommendation, Wish, named
+from harness.results import ranks
 from harness.results.figures import disproved
 from harness.results.lock import Lock
 from harness.results.row import Accuracy
@@ -28,6 +33,7 @@ from harness.running.environment import probed
 from harness.running.run import Watcher
 from harness.running.trace import usable_device
 
+LEVEL = 0.01  # the largest chance that is evidence of a difference of times, as in reports
 CONTENDERS = 6  # timed on every view and checked on held-out ones
 HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture: not timed further
 STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
@@ -97,6 +103,7 @@ class Search:
         sampled = views(wish.views + wish.held_out_views, wish.seed)
         self._truth: dict[str, tuple[int, int, int]] = {}  # judged rays, decided and undecided hits, by view
         self._disproved: dict[Variant, set[str]] = {}  # claims that rows contradict
+        self._times: list[dict[Variant, Mapping[str, Any]]] = []  # of the last race, by view
         self._tuning, self._held_out = sampled[: wish.views], sampled[wish.views :]
 
     def run(self, pictured: bool = False) -> Recommendation:
@@ -135,8 +142,19 @@ class Search:
                 self._draw(found)
             if not found.contenders:
                 alive, slow = [fallen.variant for fallen in slow], []
+        found.alike = [c.variant for c in found.contenders[1:] if self._alike(c.variant, found.contenders[0].variant)]
         found.fallen += slow
         found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
+
+    def _alike(self, variant: Variant, first: Variant) -> bool:
+        """Tell whether the rounds of all views, which timed both in turns, do not tell that a variant is the slower."""
+        ratios = []
+        for times in self._times:
+            ours, others = (
+                dict(zip(times[v]["rounds"], times[v]["samples_ms"], strict=True)) for v in (variant, first)
+            )
+            ratios += [math.log(ours[at] / others[at]) for at in ours.keys() & others.keys()]
+        return ranks.signed_rank(ratios) > LEVEL or float(np.median(ratios)) <= 0.0
 
     def _hold_out(
         self,
@@ -278,6 +296,7 @@ class Search:
         many = f"{plural(len(chosen), 'variant')} in turns on {plural(len(self._tuning), 'view')}"
         self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
         wish, by_view = self._wish, []
+        self._times.clear()
         for view in self._tuning:
             by_view.append(self._medians(chosen, precision, view, wish.size, wish.seconds, found))
             chosen = list(by_view[-1])
@@ -309,6 +328,7 @@ class Search:
                     f"could not be timed on view {view.name} ({row['status']}): {' '.join(str(row['reason']).split())}"
                 )
                 found.fallen.append(Fallen(variant, precision, Cause.FAILED, why))
+        self._times.append({variant: row["time"] for variant, row in rows.items() if row["time"]})
         return {variant: row["time"]["median_ms"] for variant, row in rows.items() if row["time"]}
 
     def _rows(
@@ -322,7 +342,8 @@ class Search:
     ) -> dict[Variant, Row]:
         """Return each variant's row on this view, run where it is not stored; it is timed where `seconds` are given.
 
-        `rays` is how many are checked per side, those of the wish where it is None.
+        `rays` is how many are checked per side, those of the wish where it is None. Times that are returned together
+        were taken in turns: where some are of an earlier search and others are new, all are taken again.
         """
         wish = self._wish
         config = Config(
@@ -343,6 +364,10 @@ class Search:
         planned = plan.plan(named, self._catalog, [self._device], timed=seconds is not None)
         stated = planned, config, self._catalog, Store(self._folder), self._executor, self._watcher
         rows, _ = batch.rows_of(*stated, self._lock)
+        if len({rows[p.key]["time"]["session"] for p in planned if rows[p.key]["time"]}) > 1:
+            many = plural(len(of), "variant")
+            self._watcher.told(f"{precision}: times of an earlier search are not compared with new ones: {many} again")
+            rows, _ = batch.rows_of(*stated, self._lock, force=True)
         return {p.cell.variant: rows[p.key] for p in planned}
 
 

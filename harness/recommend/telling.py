@@ -19,6 +19,7 @@ BEST_FIRST = (
     Cause.CLAIM,
 )  # how far a variant came before it fell
 QUANTILE_NAMES = {"max": "largest error", "p999": "99.9th percentile of errors", "p99": "99th percentile of errors"}
+MOST_ALIKE = 3  # variants that a sentence names
 LONGEST = 160  # characters of a reason that is quoted beside others
 
 
@@ -58,7 +59,17 @@ def answer(found: Recommendation, wish: Wish) -> str:
         return f"No method draws {subject(wish.surface)} so on {found.device.name}."
     best = found.contenders[0]
     speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:,.4g} frames a second at {wish.size}x{wish.size}"
-    return f"{named(best.variant)} in {best.precision}: {speed}."
+    told = [named(variant) for variant in found.alike[:MOST_ALIKE]]
+    told += [f"{len(found.alike) - MOST_ALIKE} more"] if len(found.alike) > MOST_ALIKE else []
+    alike = (
+        f" Its time is not told apart from {'that' if len(told) == 1 else 'those'} of {_listed(told)}." if told else ""
+    )
+    return f"{named(best.variant)} in {best.precision}: {speed}.{alike}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Join names as a sentence does: a, b and c."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def rule(found: Recommendation, wish: Wish) -> str:
@@ -191,7 +202,7 @@ def _clause(cause: Cause, alike: Sequence[Fallen], of: int, wish: Wish) -> str:
         case Cause.SLOW:
             times = [fallen.times or 0.0 for fallen in alike]
             spread = f"{min(times):.3g} to {max(times):.3g} times"
-            return f"keeps the error {many}, which take {spread} as long as the fastest of all"
+            return f"keeps the error {many}, which take {spread} as long as the fastest in a first, short timing"
         case Cause.ERROR:
             errors = [fallen.error or 0.0 for fallen in alike]
             return f"has errors of {min(errors):.2g} to {max(errors):.2g} {many}, over the {wish.target:.2g} allowed"

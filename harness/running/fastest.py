@@ -15,6 +15,7 @@ from harness.experiment import kinds, targets
 from harness.experiment.config import FASTEST, Experiment
 from harness.running.environment import kept_probes, probed
 
+STEADY = 0.7  # the least share of the best launch's rate that the median one has where a probe was not disturbed
 Tried = tuple[DeviceInfo, Probes | None]  # what `environment.probed` returns
 
 
@@ -82,6 +83,13 @@ def _named(part: Experiment, found: list[DeviceInfo], tried: Mapping[str, Tried]
     others = ", ".join(f"{name} {peak:,.0f}" for name, peak in peaks.items() if name != order[0].name)
     beside = f" ({others})" if others else ""
     told[f"the fastest device is {order[0].name}, with a peak of {peaks[order[0].name]:,.0f} Gflop/s{beside}"] = None
+    rivals = [info.name for info in order[1:] if (info.resident is None) == (order[0].resident is None)]
+    slowed = [name for name in rivals if (own := tried[name][1]) and own.peak_median_gflops < STEADY * own.peak_gflops]
+    if slowed:
+        told[
+            f"that choice is not certain: other programs slowed the probe of {', '.join(slowed)} down, and its peak "
+            "may be higher; name a device, or let an idle machine measure anew with `firsthit devices --again`"
+        ] = None
     return replace(
         part,
         config=replace(part.config, devices=_with_name(part.config.devices, order[0].name)),

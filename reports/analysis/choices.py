@@ -20,10 +20,12 @@ _COLUMNS = [
     *("surface", "surface_title", "degree", "view", "size", "samples_per_pixel", "stage"),
     *("method", "variant", "label", "method_label", *ties.COLUMNS, "floor_ms", "floor_bound"),
     *("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "accuracy_rays"),
-    *("error_max", "relative_error_max", "front", "speedup"),
+    *("error_max", "relative_error_max", "front", "speedup", "warnings"),
 ]  # of a choice's rows
 _JUDGED = [*ties.TOLD, "wrong_rays", "error_max", "relative_error_max"]  # what decides
-_CHOSEN_BY = ["surface", "comparison", "device", "method", "variant", "origin"]  # columns that tell the fullest scene
+_CHOSEN_BY = [
+    *("surface", "comparison", "device", "method", "variant", "origin", "size", "samples_per_pixel"),
+]  # columns that tell the fullest scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ from reports.analysis import rounds
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 _DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
+TOO_WRONG = "wrong on "  # how the reason begins of a row that is not timed since too many of its judged rays are wrong
 FLOOR_FACTOR = 2.0  # a time below this many times the null method's is more the harness's than the method's
 
 
@@ -25,9 +26,9 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     """Return `frame` with the columns of harness.results.schema.DERIVED, and without the accuracy of null methods.
 
     `peaks` has for each device, where it is known, the measured peak rate of float32 multiply-adds, in 1e9 operations
-    per second. Three figures are left empty where they would mislead: an overhead, unless it is over the device's own
+    per second. Four figures are left empty where they would mislead: an overhead, unless it is over the device's own
     clock and positive; a speed-up, unless both rows answer every ray away from silhouettes rightly; a share of a peak
-    above 1, which sets `peak_too_low` instead.
+    above 1, which sets `peak_too_low` instead; the ends of a median's interval, where it has too few samples for one.
     """
     given, answers = frame, frame["answers"].astype(bool)
     silent = np.flatnonzero(~answers)
@@ -37,6 +38,9 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
         if (older := frame[name].isna() & frame["misses"].notna()).any():
             frame[name] = frame[name].mask(older, 0)
             changed.add(name)
+    if (few := frame["median_ms"].notna() & ~rounds.proved(frame["samples_ms"])).any():
+        frame = frame.assign(**{name: frame[name].mask(few) for name in ("lower_ms", "upper_ms")})
+        changed |= {"lower_ms", "upper_ms"}
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
@@ -86,6 +90,15 @@ def contenders(frame: pd.DataFrame, names: Sequence[str] | None = None) -> pd.Da
     order = order.sort_values([*GROUP, "median_ms"], kind="stable")
     told = frame if names is None else frame[list(names)]
     return told.take(np.flatnonzero(there)[order.index.to_numpy()])
+
+
+def is_judged(frame: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether its answers were judged: it ended well, or failed because too many of them are wrong.
+
+    Returns bool with the index of `frame`.
+    """
+    too_wrong = (frame["status"] == CellStatus.FAILED) & frame["reason"].fillna("").str.startswith(TOO_WRONG)
+    return ((frame["status"] == CellStatus.OK) | too_wrong) & frame["wrong_rays"].notna()
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:

@@ -22,6 +22,7 @@ from reports import wording
 from reports.reading.tuples import tuples
 
 COLUMNS = ["session", "rounds", "samples_ms"]
+CLOCKS = ["clock", "overhead_share"]
 _RATIO = ["ratio", "ratio_low", "ratio_high"]
 
 
@@ -43,6 +44,22 @@ def times_over(row: Any, other: Any) -> float:
     """Return the median of `row`'s time over `other`'s in the rounds that timed both; NaN where no round did."""
     paired = ratio(row, other)
     return math.nan if paired is None else paired.median
+
+
+def times_elsewhere(row: Any, other: Any) -> float:
+    """Do what `times_over` does for rows of two devices, by one clock: the host's, where theirs are different.
+
+    The rows have the columns CLOCKS too. NaN where it is not known what the host's clock told.
+    """
+    ratio_of_times = times_over(row, other)
+    return ratio_of_times if row.clock == other.clock else ratio_of_times * on_host(row) / on_host(other)
+
+
+def on_host(row: Any) -> float:
+    """Return the factor that makes a row's time one by the host's clock: 1, or what submitting and waiting add."""
+    if row.clock != "device":
+        return 1.0
+    return math.nan if wording.absent(row.overhead_share) else 1.0 + float(row.overhead_share)
 
 
 def medians_over(rows: pd.DataFrame, first: Any) -> NDArray[np.float64]:

@@ -17,7 +17,10 @@ EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else ea
 MOST_SURFACES = 4  # a run with more surfaces has no maps of evaluations
 
 
-_BY = [*("status", "answers", "arrays"), *("comparison", "device", "precision", "method", "variant", "origin")]
+_BY = [
+    *("status", "answers", "arrays", "comparison", "device", "precision", "method", "variant", "origin"),
+    *("size", "samples_per_pixel"),
+]
 
 
 def _is_pictured(rows: pd.DataFrame) -> pd.Series:
@@ -42,15 +45,17 @@ def of_surface(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
 def fullest(rows: pd.DataFrame) -> str:
     """Return the comparison with most methods among rows of one surface.
 
-    Of several with equally many it is that with most variants, not counting where their rays begin, and then the
-    first in the plan's order.
+    Of several with equally many it is that with most variants, not counting where their rays begin, then that with most
+    rays, of whose time the harness's own is the least part, and then the first in the plan's order.
     """
     first = rows["comparison"].iloc[0]
     if (rows["comparison"] == first).all():
         return str(first)
-    told = rows[["comparison", "method"]].assign(variant=casters(rows))
-    counted = told.groupby("comparison", sort=False)[["method", "variant"]].nunique()
-    return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
+    rays = rows["size"].astype("float64") ** 2 * rows["samples_per_pixel"].astype("float64")
+    told = rows[["comparison", "method"]].assign(variant=casters(rows), rays=rays)
+    grouped = told.groupby("comparison", sort=False)
+    counted = grouped[["method", "variant"]].nunique().join(grouped["rays"].max())
+    return str(counted.sort_values(["method", "variant", "rays"], ascending=False, kind="stable").index[0])
 
 
 def on_pages(rows: pd.DataFrame) -> pd.DataFrame:

@@ -1,7 +1,8 @@
 """Decide whether the times of two variants differ, by the rounds that timed both.
 
-Only rows that share no round are compared by the intervals of their two medians. Rows that share too few rounds for a
-test are told apart only where they are far apart in all of these.
+Rows that share too few rounds for a test are told apart only where they are far apart in all of these. Rows that share
+none were timed in different runs, between which the machine may have been busier by a factor: they are told apart only
+where the intervals of their two medians are far apart.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from reports.reading.tuples import tuples
 
 LEVEL = 0.01  # the largest chance that is evidence of a difference
 NEEDED = ranks.pairs_needed(LEVEL)
-FAR = 4.0  # times that differ by more than this factor in every common round are told apart without a test
+FAR = 4.0  # times that differ by more than this factor in every common round, or without one, need no test
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
 COLUMNS = [*rounds.COLUMNS, "median_ms", "lower_ms", "upper_ms"]
@@ -29,8 +30,8 @@ RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
     "all on one side of 1. Where they share fewer rounds, they differ where each time of the one in these is more than "
-    f"{FAR:g} times each of the other. Times that share no round differ where the 95 % intervals of both medians do "
-    "not meet"
+    f"{FAR:g} times each of the other. Times that share no round are of different runs, between which the machine may "
+    f"have changed: they differ where the 95 % intervals of both medians are more than a factor of {FAR:g} apart"
 )
 
 
@@ -46,12 +47,12 @@ def verdict(of: Ratio) -> str:
 
 
 def is_slower(row: Any, other: Any) -> bool:
-    """Tell whether `row` is told to be slower than `other`: by common rounds, else by intervals that do not meet."""
+    """Tell whether `row` is told to be slower than `other`: by common rounds, else by intervals that are far apart."""
     paired = ratio(row, other)
     if paired is not None:
         return verdict(paired) == SLOWER or (paired.pairs < NEEDED and _far_slower(row, other))
     enough = all(timings.proves(len(one.samples_ms or ())) for one in (row, other))
-    return bool(enough and row.lower_ms > other.upper_ms)
+    return bool(enough and row.lower_ms > FAR * other.upper_ms)
 
 
 def _far_slower(row: Any, other: Any) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,6 +14,8 @@ from reports.analysis.choices import ERRORS, Choice
 from reports.content import Column, Table
 
 LINES = 26  # surfaces that fit on the first page
+NAMED = 4  # surfaces or variants that a sentence names
+_OTHERS = " Of each surface it is the scene with most methods, and of several the largest picture; “Winners” has all."
 LETTERS = 60  # of a surface's name, so that a long one leaves the other columns room
 
 
@@ -22,10 +25,10 @@ def table(frame: pd.DataFrame) -> Table | None:
     return made(found, frame["device"].nunique() > 1) if found else None
 
 
-def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
+def made(found: Sequence[Choice], several: bool, surfaces: int = 0, scenes: int = 0) -> Table:
     """Make the table of these choices, of which there is at least one; `several` tells that the run has more devices.
 
-    `surfaces` is how many the run has, 0 where these are all. At most LINES of them are printed.
+    `surfaces` and `scenes` are how many the run has, 0 where these are all. At most LINES of them are printed.
     """
     printed = [_line(choice) for choice in found[:LINES]]
     rows = pd.concat([choice.rows for choice in found])
@@ -51,6 +54,9 @@ def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
         + (" Behind “none” stands the most exact variant of this run, with its own figures." if nearest else "")
         + (" “≈” stands before what is not told apart." if _any_tied(found[:LINES]) else "")
         + _bound(found[:LINES])
+        + _unsteady(found[:LINES])
+        + _apart(found[:LINES])
+        + (_OTHERS if scenes > every else "")
         + wording.zeros([row[i] for row in printed for i in (3, 6)])
         + more,
     )
@@ -87,6 +93,36 @@ def _bound(found: Sequence[Choice]) -> str:
     if not names:
         return ""
     return f" Floor-bound, so that the time is mostly the harness's own: {wording.listed(names)}."
+
+
+def _unsteady(found: Sequence[Choice]) -> str:
+    """Say of which surfaces the winners' times are noisy or drift; "" for none."""
+    names = [choice.name for choice in found if any(won is not None and _warned(won) for won in choice.within)]
+    if not names:
+        return ""
+    where = wording.listed(names) if len(names) <= NAMED else f"{len(names)} of {wording.plural(len(found), 'surface')}"
+    return f" Noisy or drifting times, as of a busy machine, with which ratios are rough: {where}."
+
+
+def _warned(row: Any) -> bool:
+    return not wording.absent(row.warnings) and bool(json.loads(row.warnings))
+
+
+def _apart(found: Sequence[Choice]) -> str:
+    """Say which variants were not timed in one run with the others of their scene; "" for none."""
+    labels: dict[str, None] = {}
+    for choice in found:
+        sessions = choice.rows["session"].dropna()
+        if sessions.nunique() > 1:
+            main = choices.common(sessions)
+            others = choice.rows[choice.rows["session"].notna() & (choice.rows["session"] != main)]
+            labels |= dict.fromkeys(map(str, others.sort_index()["label"]))
+    if not labels:
+        return ""
+    return (
+        f" Timed in another run than the rest, so that only times far apart are told apart and none is divided: "
+        f"{wording.few(list(labels), NAMED)}; with --force all are timed in turns."
+    )
 
 
 def _shared(rows: pd.DataFrame) -> str:

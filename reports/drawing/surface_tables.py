@@ -17,6 +17,7 @@ from reports.reading.tuples import tuples
 
 OVERHEAD_LIMIT = 0.05  # the share of the time above which an overhead is flagged
 KNOWN = ("front", "floor-bound", "drifts", "noisy")  # flags of the table beside a plot; the other one has all
+ORDERED = "The fastest first; ± is the 95 % interval of the median, – of too few samples. "
 MOST_ROWS = 26  # of the table beside a surface's plot, so that both stand on one page
 LEGEND = (
     "Speed-up is over the baseline that each table names. Flags: front, no other variant with all rays right is both "
@@ -96,7 +97,7 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         tuple(column for column, _ in columns),
         body,
         scene_title(rows),
-        f"{'The fastest first; ± is the 95 % interval of the median. ' if timed else ''}Errors are |t − t*| in scene "
+        f"{ORDERED if timed else ''}Errors are |t − t*| in scene "
         f"units, of {wording.count(kept['accuracy_rays'].max())} rays, away from "
         f"silhouettes.{wording.zeros(kept['error_max'], kept['error_p99'])}{over}{cut} "
         "All columns, units, devices and views are in report.html, under “Every figure”.",
@@ -105,9 +106,12 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
 
 
 def spread(row: Any) -> float | None:
-    """Return how far the 95 % interval of the median reaches from it, at the longer side, over the median."""
+    """Return how far the 95 % interval of the median reaches from it, at the longer side, over the median.
+
+    None where too few samples were taken for an interval.
+    """
     reach = max(row.upper_ms - row.median_ms, row.median_ms - row.lower_ms)
-    return reach / row.median_ms if row.median_ms else None
+    return None if wording.absent(reach) or not row.median_ms else reach / row.median_ms
 
 
 def flags(row: Any) -> str:
@@ -236,6 +240,7 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     return (
         scene_title(rows),
         "Fastest first for each device and precision; ± is how far the 95 % interval reaches from the median, over the "
-        f"median; errors are |t − t*| in scene units.{wording.zeros(rows['error_max'], rows['error_p99'])} "
+        "median, – of too few samples; errors are |t − t*| in scene "
+        f"units.{wording.zeros(rows['error_max'], rows['error_p99'])} "
         f"{tables.speedup(rows)}{checked}",
     )

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
 
 from reports import wording
-from reports.analysis import choices, derive, tradeoffs
+from reports.analysis import choices, derive, rounds, tradeoffs
 from reports.analysis.scene_names import scene_names
 from reports.content import Column, Table
+from reports.reading.tuples import tuples
 
 
 def trades(found: Sequence[choices.Choice]) -> Table | None:
@@ -68,15 +70,18 @@ def devices(frame: pd.DataFrame) -> Table | None:
     kernel = ["comparison", "variant", "precision"]
     first = rows[rows["device"] == fullest].drop_duplicates(kernel)
     body: list[tuple[Any, ...]] = []
-    named = scene_names(frame)
+    named, apart = scene_names(frame), False
     for device, own in rows[rows["device"] != fullest].groupby("device", sort=False):
         both = own.drop_duplicates(kernel).merge(first, on=kernel, suffixes=("", "_first"))
         if both.empty:
             continue
-        times = both["median_ms"] / both["median_ms_first"]
+        times = _over(both)
+        apart |= bool((both["session"] != both["session_first"]).any())
+        if times.isna().all():
+            continue
         low, high = both.loc[times.idxmin()], both.loc[times.idxmax()]
         told = f"{low.label} on {named[low.comparison]}; {high.label} on {named[high.comparison]}"
-        body.append((device, len(both), times.median(), times.min(), times.max(), told))
+        body.append((device, int(times.notna().sum()), times.median(), times.min(), times.max(), told))
     if not body:
         return None
     columns = (
@@ -87,8 +92,29 @@ def devices(frame: pd.DataFrame) -> Table | None:
         Column("most", wording.factor, numeric=True, over=f"time over that on {fullest}"),
         Column("least and most are of", stretch=1),
     )
-    caption = (
-        "The same variant on the same scene, right on both. Above 1× is slower. The two devices were not timed in "
-        "turns, so that other load on one of them shifts a ratio."
+    turns = (
+        "Some of these times were not taken in turns, so that other load on one of two devices shifts a ratio."
+        if apart
+        else "Ratios are of the rounds that timed both."
     )
+    clocks = " Devices that are timed by different clocks are compared by the host's." * (rows["clock"].nunique() > 1)
+    caption = f"The same variant on the same scene, right on both. Above 1× is slower. {turns}{clocks}"
     return Table(columns, body, "The other devices.", caption)
+
+
+def _over(both: pd.DataFrame) -> pd.Series:
+    """Return the times of rows over those of another device, whose columns end in _first; float64 with their index.
+
+    They are of the rounds that timed both or, where these were not timed in turns, of the two medians; NaN where no
+    clock tells both.
+    """
+    names = [*rounds.COLUMNS, *rounds.CLOCKS, "median_ms"]
+    own, first = both[names], both[[f"{name}_first" for name in names]].set_axis(names, axis=1)
+    found = []
+    for row, other in zip(tuples(own), tuples(first), strict=True):
+        times = rounds.times_elsewhere(row, other)
+        if math.isnan(times):
+            clocks = 1.0 if row.clock == other.clock else rounds.on_host(row) / rounds.on_host(other)
+            times = clocks * row.median_ms / other.median_ms
+        found.append(times)
+    return pd.Series(found, both.index, dtype="float64")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
+from typing import Any
+
 import pandas as pd
 
 from harness.contract import CellStatus
@@ -16,7 +19,7 @@ LINES, SURFACES = 24, 8  # that fit on the first page
 
 def blocks(frame: pd.DataFrame) -> list[Block]:
     """Return a sentence on which variants answer every ray rightly, and a table of all; `frame` has a row or more."""
-    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["wrong_rays"].notna()]
+    rows = frame[derive.is_judged(frame) & frame["answers"].astype(bool)]
     if rows.empty:
         harness = frame[(frame["status"] == CellStatus.OK) & ~frame["answers"].astype(bool)]
         only = "This run has the harness alone: a method that answers nothing" if len(harness) else ""
@@ -29,12 +32,12 @@ def blocks(frame: pd.DataFrame) -> list[Block]:
         held = surfaces - own.loc[~right, "surface"].nunique()
         body.append((label, precision, held, surfaces, wrong, int(own["accuracy_rays"].sum()), worst))
     body.sort(key=lambda line: (line[4] / max(1, line[5]), line[6]))
-    perfect = [f"{line[0]}" for line in body if line[4] == 0]
-    named = list(dict.fromkeys(perfect))
+    wrong_somewhere = {line[0] for line in body if line[4]}
+    named = list(dict.fromkeys(_named(line, wrong_somewhere) for line in body if line[4] == 0))
     if not named:
         first = body[0]
         lead = f"No variant is right on every ray; {first[0]} has fewest wrong: {first[4]:,} of {first[5]:,}."
-    elif len(named) == len({line[0] for line in body}):
+    elif not wrong_somewhere:
         lead = f"Every variant is right on every ray away from silhouettes: {wording.few(named, NAMED)}."
     else:
         lead = f"Right on every ray away from silhouettes: {wording.few(named, NAMED)}. The others answer some wrongly."
@@ -53,6 +56,12 @@ def blocks(frame: pd.DataFrame) -> list[Block]:
     shown = body[:LINES]
     table = Table(columns, shown, "Who is right.", f"{caption}{zeros}{wording.first_of(len(shown), len(body))}")
     return [Text(lead, strong=True), Text(told), *_matrix(rows), table]
+
+
+def _named(line: tuple[Any, ...], wrong_somewhere: Set[str]) -> str:
+    """Name the variant of a line, with its precision where it is wrong in another one."""
+    label, precision, *_ = line
+    return f"{label} in {precision}" if label in wrong_somewhere else str(label)
 
 
 def _matrix(rows: pd.DataFrame) -> list[Block]:

@@ -35,28 +35,37 @@ def sections(material: Material) -> list[Section]:
     right = timed[derive.all_right(timed) & timed["answers"].astype(bool)]
     right = right[right["precision"] == right["precision"].iloc[0]] if len(right) else right
     means = _means(right)
-    shown: tuple[Block, ...] = (Text(_said(means)), _matrix(means, right["precision"].iloc[0])) if means else ()
+    shown: tuple[Block, ...] = (Text(_said(means)), _matrix(means, right)) if means else ()
     return [Section("The same kernel on every device", shown, (table,), name="Devices")]
 
 
 def _means(right: pd.DataFrame) -> dict[str, dict[str, tuple[float, int]]]:
     """Return by label and device the geometric mean of a variant's times over its fastest device's, and of how many.
 
-    Only scenes count that two devices or more answered rightly in the same rounds. `right` is of one precision.
+    For each variant only those scenes count that all of its devices answered rightly in the same rounds, so that the
+    means are of the same. `right` is of one precision.
     """
-    logs: dict[str, dict[str, list[float]]] = {}
-    read = list(dict.fromkeys([*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS]))
+    logs: dict[str, list[dict[str, float]]] = {}
+    read = list(dict.fromkeys([*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS, *rounds.CLOCKS]))
     rows = right[read].drop_duplicates([*_KERNEL, "device"]).sort_values("median_ms", kind="stable")
     for _, own in rows.groupby(_KERNEL, sort=False):
         first, *rest = tuples(own)
-        ratios = {str(row.device): rounds.times_over(row, first) for row in rest}
-        ratios = {device: ratio for device, ratio in ratios.items() if not math.isnan(ratio)}
-        for device, ratio in ({str(first.device): 1.0} | ratios).items() if ratios else ():
-            logs.setdefault(str(first.label), {}).setdefault(device, []).append(math.log(ratio))
-    return {
-        label: {device: (math.exp(sum(of) / len(of)), len(of)) for device, of in own.items()}
-        for label, own in logs.items()
-    }
+        ratios = {str(row.device): rounds.times_elsewhere(row, first) for row in rest}
+        found = {device: math.log(ratio) for device, ratio in ratios.items() if not math.isnan(ratio)}
+        if found:
+            least = min(0.0, *found.values())  # in the rounds that timed both, or by one clock, another is the fastest
+            found = {device: ratio - least for device, ratio in ({str(first.device): 0.0} | found).items()}
+            logs.setdefault(str(first.label), []).append(found)
+    means = {}
+    for label, scenes in logs.items():
+        devices = dict.fromkeys(device for scene in scenes for device in scene)
+        common = [scene for scene in scenes if len(scene) == len(devices)]
+        if common:
+            means[label] = {
+                device: (math.exp(sum(scene[device] for scene in common) / len(common)), len(common))
+                for device in devices
+            }
+    return means
 
 
 def _fastest(means: Mapping[str, Mapping[str, tuple[float, int]]]) -> list[tuple[str, int]]:
@@ -74,18 +83,36 @@ def _said(means: Mapping[str, Mapping[str, tuple[float, int]]]) -> str:
     return f"{READ} {told}{f', {wording.listed(others)}' if others else ''}."
 
 
-def _matrix(means: Mapping[str, Mapping[str, tuple[float, int]]], precision: str) -> Matrix:
-    """Make a line for each variant and a column for each device, those on the left that are fastest most often."""
+def _matrix(means: Mapping[str, Mapping[str, tuple[float, int]]], right: pd.DataFrame) -> Matrix:
+    """Make a line for each variant and a column for each device, those on the left that are fastest most often.
+
+    `right` are the rows that the means are of.
+    """
     order = [device for device, _ in _fastest(means)]
     missing = shades.silent(wording.NONE, "wrong, or not timed in the same rounds")
     return Matrix(
         tuple(order),
         [(label, tuple(_square(*own[d]) if d in own else missing for d in order)) for label, own in means.items()],
-        f"Time over that of the variant's fastest device, {precision}.",
-        "The geometric mean over the scenes that two devices or more answered rightly in the same rounds.",
+        f"Time over that of the variant's fastest device, {right['precision'].iloc[0]}.",
+        "The geometric mean over the scenes that all devices of the line answered rightly in the same rounds; lines "
+        f"may be of different scenes.{_clocks(right)}",
         "method",
         shades.key({0.0: "the fastest", 0.5: f"{TOP**0.5:.2g}×", 1.0: f"{TOP:g}× and more"}),
     )
+
+
+def _host_ms(rows: pd.DataFrame) -> pd.Series:
+    """Return the rows' median times, by the host's clock where theirs are different; float64 with their index."""
+    if rows["clock"].nunique() < 2:
+        return rows["median_ms"]
+    return rows["median_ms"] * [rounds.on_host(row) for row in tuples(rows)]
+
+
+def _clocks(rows: pd.DataFrame) -> str:
+    """Say, with a space before it, by which clock devices are compared that are timed by different ones; else ""."""
+    if rows["clock"].nunique() < 2:
+        return ""
+    return " Devices timed by different clocks are compared by the host's, which counts submitting and waiting."
 
 
 def _square(mean: float, scenes: int) -> Square:
@@ -101,20 +128,21 @@ def _table(timed: pd.DataFrame) -> Table | None:
     named = scene_names(timed)
     body: list[tuple[Any, ...]] = []
     timed = timed.assign(comparable=derive.all_right(timed) | ~timed["answers"].astype(bool))
-    kept = [*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS, "overhead_share", "comparable"]
+    kept = [*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS, *rounds.CLOCKS, "comparable"]
     timed = timed[kept].drop_duplicates([*_KERNEL, "device"])
     shared = timed[timed.groupby(_KERNEL)["device"].transform("size") > 1]
     groups = shared.groupby(_KERNEL, sort=False)
     for (scene, _, precision), rows in itertools.islice(groups, tables.ROW_LIMIT):
         by_device = rows.set_index("device")
-        slowest = rows[rows["comparable"]].nlargest(1, "median_ms")
+        slowest = rows.loc[rows["comparable"]]
+        slowest = slowest.loc[_host_ms(slowest).nlargest(1).index]
         cells: list[float | None] = []
         for device in devices:
             here = by_device.loc[device] if device in by_device.index else None
             if here is None:
                 cells += [None] * 3
             else:
-                faster = rounds.times_over(slowest.iloc[0], here) if here.comparable else None
+                faster = rounds.times_elsewhere(slowest.iloc[0], here) if here.comparable else None
                 cells += [here.median_ms, faster, here.overhead_share]
         body.append((named[str(scene)], precision, rows["label"].iloc[0], *cells))
     if not body:
@@ -135,6 +163,6 @@ def _table(timed: pd.DataFrame) -> Table | None:
         "always counts. Each device is timed by the clock that is believed there. Overhead is what the harness's "
         "submitting and waiting adds to the kernel's own time, as a share of that time; – where the device has no "
         "clock of its own that is believed. Look for a device whose lead changes from variant to variant: its compiler "
-        f"makes more, or less, of one of them.{wording.first_of(len(body), groups.ngroups)}",
+        f"makes more, or less, of one of them.{_clocks(timed)}{wording.first_of(len(body), groups.ngroups)}",
         group=2,
     )

@@ -211,6 +211,7 @@ def _saved(rows: pd.DataFrame) -> Matrix:
     """Make a line for each scene and variant and a column for each tolerance: the share of the time that it saves."""
     pairs = list(_paired(rows))
     tolerances = sorted({row.pixel_tolerance for row, _ in pairs})
+    several = [name for name in PLACE[2:] if len({getattr(row, name) for row, _ in pairs}) > 1]
     lines: dict[str, dict[float, Square]] = {}
     for row, base in pairs:
         saved = 1.0 - rounds.times_over(row, base)
@@ -218,7 +219,8 @@ def _saved(rows: pd.DataFrame) -> Matrix:
         told = wording.whole_percentage(saved) + (f", {wording.minus(f'{more:+,}')} wrong" if more else "")
         note = f"{row.label}: {wording.number(row.median_ms)} ms, {wording.number(base['median_ms'])} ms without"
         square = Square(told, shades.shade(1.0 - max(0.0, saved) if saved == saved else 1.0), note)
-        lines.setdefault(f"{row.surface_title}: {base['label']}", {})[row.pixel_tolerance] = square
+        place = ", ".join([row.surface_title, *(str(getattr(row, name)) for name in several)])
+        lines.setdefault(f"{place}: {base['label']}", {})[row.pixel_tolerance] = square
     missing = shades.silent(wording.NONE, "not timed")
     body = [(line, tuple(own.get(of, missing) for of in tolerances)) for line, own in lines.items()]
     return Matrix(
@@ -240,7 +242,9 @@ def _paired(rows: pd.DataFrame) -> Iterator[tuple[Any, pd.Series]]:
             & (rows["device"] == row.device)
             & (rows["method"] == row.method)
             & (rows["parameters"] == row.parameters)
+            & (rows["precision"] == row.precision)
             & (rows["proxy"] == row.proxy)
+            & (rows["normal"].fillna("") == ("" if wording.absent(row.normal) else row.normal))
             & (rows["origin"].fillna("") == ("" if wording.absent(row.origin) else row.origin))
             & (rows["pixel_tolerance"] == 0.0)
         ]

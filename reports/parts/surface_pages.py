@@ -30,7 +30,12 @@ CARDS = 48  # a run with more surfaces has a picture with a name and a time for 
 
 
 _CHOSEN_BY = list(
-    dict.fromkeys([*tables.CHOSEN_BY, "label", "method_label", "surface", "comparison", "origin", "median_ms"])
+    dict.fromkeys(
+        [
+            *(*tables.CHOSEN_BY, "label", "method_label", "surface", "comparison", "origin", "median_ms"),
+            *("size", "samples_per_pixel"),
+        ]
+    )
 )  # columns that `_printed` reads
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
-from reports.analysis import surface_names
+from reports.analysis import derive, surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
@@ -113,7 +113,7 @@ def _worst(rows: pd.DataFrame) -> pd.DataFrame:
     notes call the variant.
     """
     share = (rows["wrong_rays"] / rows["judged"]).astype("Float64").where(rows["judged"] > 0)
-    rows = rows.assign(share=share.where(rows["status"] == CellStatus.OK))
+    rows = rows.assign(share=share.where(derive.is_judged(rows)))
     rows = rows.assign(named=rows["label"])
     placed = rows.sort_values("share", ascending=False, na_position="last", kind="stable")
     return placed.drop_duplicates(["surface", "variant"]).sort_index()

@@ -71,8 +71,9 @@ def _seen(leading: pd.DataFrame) -> str:
     rest = f"; on {shared} the times of several methods are not told apart (≈)" if shared else ""
     won = f"fastest, whatever their error, are {wording.listed(most)}" if most else "no method is fastest alone"
     several = len(leading.drop_duplicates(["device", "precision"])) > 1
-    cells = wording.plural(len(leading), "combination") + " of surface, device and precision" * several
-    cells = cells if several else wording.plural(len(leading), "surface")
+    what = "surface" if leading["comparison"].nunique() == leading["surface"].nunique() else "scene"
+    cells = wording.plural(len(leading), "combination") + f" of {what}, device and precision" * several
+    cells = cells if several else wording.plural(len(leading), what)
     return f"Of {cells} on which some variant answers every ray away from silhouettes rightly, {won}{rest}."
 
 

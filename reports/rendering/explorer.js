@@ -66,12 +66,15 @@
     return list;
   }
 
+  // An end of an interval; where there is none the mark has no bar.
+  const end = (value, middle) => (Number.isFinite(value) && value > 0 ? value : middle);
+
   // One panel's data. `zero` is where an error of 0 stands.
   function dataOf(list, speed, zero) {
     const points = list.map((row) => {
       const { color, shape } = methods[row.method] ?? { color: "#555", shape: "circle" };
       const right = row.wrong === 0;
-      return { x: row.x || zero, y: row.y, low: speed.low(row) || row.y, high: speed.high(row) || row.y, method: row.method,
+      return { x: row.x || zero, y: row.y, low: end(speed.low(row), row.y), high: end(speed.high(row), row.y), method: row.method,
         color, shape, fill: right ? color : "white", row: String(row.row) };
     });
     const beats = (a, b) => (speed.less ? a < b : a > b);
@@ -93,7 +96,8 @@
 
   function describe(index) {
     const row = rows[index];
-    const told = [["time", `${number(row.ms)} ms (${number(row.low)} to ${number(row.high)})`],
+    const interval = row.low === null ? "too few samples for an interval" : `${number(row.low)} to ${number(row.high)}`;
+    const told = [["time", `${number(row.ms)} ms (${interval})`],
       ["rate", `${number(row.rate)} Mrays/s, ${number(1e3 / row.ms)} frames/s`],
       ["evaluations", `${number(row.evaluations)} a ray`],
       ["largest error", `${error(row.max)} scene units, ${error(units.pixels(row, "max"))} pixels`],
