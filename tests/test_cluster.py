@@ -23,7 +23,7 @@ from harness.contract import CellStatus, FirsthitError
 from harness.devices.executor import CellError
 from harness.devices.host import Host
 from harness.running import run as running
-from tests.sleeping_device import HOST, INFO, SleepingExecutor, cluster, config, until
+from tests.sleeping_device import HOST, INFO, SleepingExecutor, announce, cluster, config, until
 
 pytestmark = pytest.mark.usefixtures("no_cache")
 
@@ -112,6 +112,21 @@ def test_a_device_that_does_not_come_back_fails_its_steps_and_serves_again_once_
         dask.add(LAB1)
         until(lambda: engine.places())
         executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
+
+
+def test_a_device_that_is_still_being_probed_is_waited_for_beyond_the_patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    with cluster([LAB1], patience=0.1) as (dask, engine, _):
+        executor = lone_executor(engine)
+        monkeypatch.setattr("harness.cluster.engine.announce", announced_late)
+        dask.add(LAB1)
+        until(engine.asking)
+        dask.sync(dask.workers_of_test[0].close, timeout=1)
+        assert executor.warm(INFO.name, "k", None).batch == 1  # type: ignore[arg-type]
+
+
+def announced_late(resources: Any) -> dict[str, Any]:
+    time.sleep(1.0)
+    return announce(resources)
 
 
 def test_what_a_device_does_costs_the_step_and_no_worker() -> None:
