@@ -14,16 +14,16 @@ import pytest
 
 import firsthit
 from harness.cluster import admission
-from harness.cluster.executor import LOSSES, ClusterExecutor
+from harness.cluster.executor import LOSSES, TRIES, ClusterExecutor
 from harness.cluster.fleet import ClusterFleet
 from harness.cluster.naming import named
-from harness.cluster.places import Place
+from harness.cluster.places import Hold, Lost, Place
 from harness.cluster.spread import ClusterSpread
 from harness.contract import CellStatus, FirsthitError
 from harness.devices.executor import CellError
 from harness.devices.host import Host
 from harness.running import run as running
-from tests.sleeping_device import HOST, INFO, SleepingExecutor, cluster, config, until
+from tests.sleeping_device import HOST, INFO, SleepingExecutor, announce, cluster, config, until
 
 pytestmark = pytest.mark.usefixtures("no_cache")
 
@@ -114,6 +114,21 @@ def test_a_device_that_does_not_come_back_fails_its_steps_and_serves_again_once_
         executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
 
 
+def test_a_device_that_is_still_being_probed_is_waited_for_beyond_the_patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    with cluster([LAB1], patience=0.1) as (dask, engine, _):
+        executor = lone_executor(engine)
+        monkeypatch.setattr("harness.cluster.engine.announce", announced_late)
+        dask.add(LAB1)
+        until(engine.asking)
+        dask.sync(dask.workers_of_test[0].close, timeout=1)
+        assert executor.warm(INFO.name, "k", None).batch == 1  # type: ignore[arg-type]
+
+
+def announced_late(resources: Any) -> dict[str, Any]:
+    time.sleep(1.0)
+    return announce(resources)
+
+
 def test_what_a_device_does_costs_the_step_and_no_worker() -> None:
     with cluster([LAB1]) as (_, engine, _told):
         executor = lone_executor(engine)
@@ -125,18 +140,41 @@ def test_what_a_device_does_costs_the_step_and_no_worker() -> None:
 
 
 def test_a_step_that_ends_each_worker_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("harness.cluster.places.Hold.step", lambda *_: (_ for _ in ()).throw(_lost()))
+    tries = []
+
+    def step(hold: Hold, *_: Any) -> None:
+        tries.append(hold)
+        hold.sent = True
+        raise Lost("as if it were killed")
+
+    monkeypatch.setattr(Hold, "step", step)
     with cluster([LAB1]) as (_, engine, _told):
         executor = lone_executor(engine)
         with pytest.raises(CellError, match=f"warm lost its worker {LOSSES} times; the last time: as if") as raised:
             executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
-        assert raised.value.status is CellStatus.CRASHED
+        assert raised.value.status is CellStatus.CRASHED and len(tries) == LOSSES
 
 
-def _lost() -> Exception:
-    from harness.cluster.places import Lost
+def test_a_step_is_not_blamed_for_workers_that_are_lost_before_they_have_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    left = [TRIES - 1]
+    asked = Hold._asked
 
-    return Lost("as if it were killed")
+    async def lost_at_first(hold: Hold, request: bytes) -> Any:
+        await hold._made
+        if left[0] > 0:
+            left[0] -= 1
+            raise OSError("as if its process had been killed a moment ago")
+        return await asked(hold, request)
+
+    monkeypatch.setattr(Hold, "_asked", lost_at_first)
+    monkeypatch.setattr("harness.cluster.engine.SIGNS", 0)
+    with cluster([LAB1]) as (_, engine, _told):
+        executor = lone_executor(engine)
+        assert executor.warm(INFO.name, "k", None).batch == 1 and left == [0]  # type: ignore[arg-type]
+        left[0] = TRIES
+        with pytest.raises(CellError, match=f"no worker stayed .* warm, in {TRIES} tries.*as if.*--retry") as raised:
+            executor.warm(INFO.name, "k", None)  # type: ignore[arg-type]
+        assert raised.value.status is CellStatus.FAILED
 
 
 def test_a_worker_of_other_code_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,12 +8,14 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
+import dask
 import pytest
-from distributed import Future, Status
+from distributed import Future, Scheduler, Status
+from distributed.core import ConnectionPool, PooledRPCCall
 from distributed.scheduler import KilledWorker, WorkerState
 
 from harness.cluster import engine as engines
-from harness.cluster import starting
+from harness.cluster import serving, starting
 from harness.cluster.engine import SIGNS, Engine
 from harness.cluster.executor import LOSSES, ClusterExecutor
 from harness.cluster.places import Lost
@@ -107,6 +109,38 @@ def test_a_worker_that_lost_a_step_is_given_none_before_it_shows_signs_of_life(m
             assert not engine.places() and engine.take(lambda _: True) is None
             signs.append(signs[-1] + 1.0)
         until(lambda: engine.take(lambda _: True) is place)
+
+
+def test_a_worker_that_hangs_when_its_scheduler_ends_is_ended_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Hanging:
+        """Stand for a nanny whose worker hangs: it never ends by itself."""
+
+        def __init__(self, address: str, **_: Any) -> None:
+            self.rpc, self.scheduler = ConnectionPool(), PooledRPCCall(address, None)
+
+        async def __aenter__(self) -> Hanging:
+            await self.rpc
+            return self
+
+        async def __aexit__(self, *_: Any) -> None:
+            await self.rpc.close()
+
+        async def finished(self) -> None:
+            await asyncio.Event().wait()
+
+    monkeypatch.setattr("distributed.Nanny", Hanging)
+    monkeypatch.setattr(serving, "GONE_SECONDS", 0.0)
+    monkeypatch.setattr(serving, "_listen", lambda *_: None)
+
+    async def served() -> None:
+        async with Scheduler(host="127.0.0.1", dashboard=False) as scheduler:
+            serves = asyncio.create_task(serving.serve(scheduler.address, "core 1@lab1", {}, "lab1", None))  # type: ignore[arg-type]
+            await asyncio.sleep(0.3)
+            assert not serves.done()
+        await asyncio.wait_for(serves, 20.0)
+
+    with dask.config.set({name: dask.config.get(name) for name in serving.QUIET}):  # which are as before after it
+        asyncio.run(served())
 
 
 def test_steps_go_through_the_scheduler_where_a_worker_is_not_reached(monkeypatch: pytest.MonkeyPatch) -> None:

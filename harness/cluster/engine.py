@@ -21,7 +21,7 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from harness.cluster.holder import CORES, Announced, announce, code, different
+from harness.cluster.holder import CORES, FIND_SECONDS, Announced, announce, code, different
 from harness.cluster.places import Place, places_of
 from harness.contract import FirsthitError
 from harness.devices.interface import INSTALL
@@ -124,7 +124,8 @@ class Engine:
     def waited(self, found: Callable[[], Any], seconds: float | None = None) -> Any:
         """Return what `found` returns, once that is true; None where it was not for `seconds`, else for the patience.
 
-        While the scheduler does not answer, the time does not pass. Raises as `check` does.
+        While the scheduler does not answer, the time does not pass. While a worker finds and probes its devices, which
+        takes its time on a busy machine, FIND_SECONDS more are waited. Raises as `check` does.
         """
         limit = self.patience if seconds is None else seconds
         since = time.monotonic()
@@ -135,7 +136,7 @@ class Engine:
                     return answer
                 if self._up is None:
                     since = time.monotonic()
-                elif time.monotonic() - max(since, self._up) > limit:
+                elif time.monotonic() - max(since, self._up) > limit + FIND_SECONDS * self.asking():
                     return None
                 self._changed.wait(LOOK_SECONDS)
 
@@ -147,7 +148,7 @@ class Engine:
     def asking(self) -> bool:
         """Tell whether a worker has been asked what it has, and has not said so yet: it finds and probes devices."""
         with self._changed:
-            return any(worker.asked is not None for worker in self._workers.values())
+            return any(worker.asked is not None and not worker.silent for worker in self._workers.values())
 
     def take(self, wanted: Callable[[Place], bool]) -> Place | None:
         """Take a free place that is wanted; None where there is none now."""

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from harness.devices.fingerprint import Fingerprint
     from harness.devices.probes import Probes
 
-LOSSES = 3  # workers that a step may lose, after which it counts as what ends them
+LOSSES = 3  # workers that may be lost with a step, after which it counts as what ends them
+TRIES = 10  # to give a step to a worker, of which some may be lost before they have it
 
 
 class ClusterExecutor:
@@ -109,8 +110,8 @@ class ClusterExecutor:
 
     def _ask(self, device: str, operation: str, *arguments: Any) -> Any:
         """Take a step to the worker, or to the one that takes over. Raises CellError, and Cold."""
-        lost = ""
-        for _ in range(LOSSES):
+        losses, lost = 0, ""
+        for _ in range(TRIES):
             with admission.away():
                 hold = self._hold or self._taken()
                 released, self._released = self._released, []
@@ -118,13 +119,17 @@ class ClusterExecutor:
                     plain = hold.place.device if device == self._name else device
                     answer = hold.step(operation, plain, arguments, released)
                 except Lost as error:
-                    lost = str(error)
+                    losses, lost = losses + hold.sent, str(error)
                     self._engine.look_again(hold.place)
                     self._drop()
+                    if losses == LOSSES:
+                        told = f"{operation} lost its worker {LOSSES} times; the last time: {lost}"
+                        raise CellError(CellStatus.CRASHED, told) from None
                 else:  # a place that was lost before it answered anything is no move
                     self._moves, self._came = self._moves + self._came, False
                     return answer
-        raise CellError(CellStatus.CRASHED, f"{operation} lost its worker {LOSSES} times; the last time: {lost}")
+        told = f"no worker stayed long enough to take {operation}, in {TRIES} tries; the last time: {lost}"
+        raise CellError(CellStatus.FAILED, f"{told}; `--retry failed` runs the cell again")
 
     def _drop(self) -> None:
         assert self._hold

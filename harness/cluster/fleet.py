@@ -74,9 +74,7 @@ class ClusterFleet:
         Raises FirsthitError with exit code 3 where no device comes, or where a name stands for several.
         """
         try:
-            while not self.engine.waited(lambda: self._complete(wanted), self._patience):
-                if not self.engine.asking():  # probing a device takes its time on a busy machine
-                    break
+            self.engine.waited(lambda: self._complete(wanted), self._patience)
         except Stopped:
             raise self.engine.problem or Stopped(2) from None
         places = self.engine.places()

@@ -21,7 +21,7 @@ LOOK_SECONDS = 0.25  # between two looks whether the worker is still there
 
 
 class Lost(Exception):
-    """Report that a worker was lost while it took a step; the message says how, as "its worker has gone"."""
+    """Report that a worker was lost that was to take a step; the message says how, as "its worker has gone"."""
 
 
 class Cold(Exception):
@@ -66,6 +66,7 @@ class Hold:
 
     connect: returns the Dask client as it is now
     stop: raises what ends the command, once it is to end
+    sent: whether the last step was sent to a worker that, as far as is known, was there
     """
 
     place: Place
@@ -73,12 +74,14 @@ class Hold:
     share: float
     connect: Callable[[], Any]
     stop: Callable[[], None]
+    sent: bool = field(default=False, init=False)
     _made: Any = field(default=None, init=False)  # Dask's future of the actor that holds the device
     _actor: Any = field(default=None, init=False)
     _loop: Any = field(default=None, init=False)  # the client's, where all that is asked is sent
 
     def step(self, operation: str, device: str, arguments: tuple[Any, ...], released: list[str]) -> Any:
         """Take a step there and return its result. Raises CellError as executors do, Cold, and Lost."""
+        self.sent = False
         request = pickle.dumps((operation, (device, *arguments), self.place.software, released), -1)
         said = pickle.loads(self._waited(self._asked(request)))
         if said[0] == "ok":
@@ -97,6 +100,7 @@ class Hold:
     async def _asked(self, request: bytes) -> Any:
         if self._actor is None:
             self._actor = await self._made
+        self.sent = self.place.gone is None
         return await self._actor.step(request)
 
     async def _closed(self) -> Any:

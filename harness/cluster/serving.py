@@ -1,7 +1,8 @@
 """Run a Dask worker with named resources: `python -m harness.cluster.serving WORKER HANDLE`, from the supervisor only.
 
-Dask's nanny watches the worker's process and starts it again where it ends. When the scheduler has gone, Dask ends
-both; the supervisor then starts this process again, and the worker waits for a scheduler at the same address.
+Dask's nanny watches the worker's process and starts it again where it ends. When the scheduler has gone, the worker
+ends, and its nanny with it; a worker that hangs then is ended here, since only the worker hears of it. The supervisor
+starts this process again, and the worker waits for a scheduler at the same address.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ from typing import Any
 from harness.cluster.holder import MACHINE
 from harness.hosting import process
 
+GONE_SECONDS = 5.0  # for a worker to end by itself once its scheduler has gone
+# Python's own process, which outlives one that is killed and frees its semaphores, need not tell people so
+LEAKED = "ignore:resource_tracker:UserWarning"
 PRELOAD = "harness.cluster.serving"  # its dask_setup, in the worker's process
 QUIET = {  # what Dask does by itself in a worker, 100 times a second, 50 times and 2: a timed step would hear it
     "distributed.worker.profile.enabled": False,
@@ -51,8 +55,15 @@ async def serve(address: str, name: str, resources: dict[str, float], machine: s
     async with Nanny(address, nthreads=1, memory_limit=0, dashboard=False, **stated) as nanny:
         loop, told = asyncio.get_running_loop(), asyncio.Event()
         threading.Thread(target=_listen, args=(asked, loop, told), daemon=True).start()
-        ends = [asyncio.create_task(told.wait()), asyncio.create_task(nanny.finished())]
+        ends = [asyncio.create_task(end) for end in (told.wait(), nanny.finished(), _abandoned(nanny))]
         await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
+
+
+async def _abandoned(nanny: Any) -> None:
+    """Return a while after the scheduler has gone: it has closed a connection on which it never says anything."""
+    with contextlib.suppress(OSError):
+        await (await nanny.rpc.connect(nanny.scheduler.address)).read()
+    await asyncio.sleep(GONE_SECONDS)
 
 
 def _listen(asked: Connection, loop: asyncio.AbstractEventLoop, told: asyncio.Event) -> None:
@@ -68,6 +79,7 @@ def main(stated: str, handle: str) -> None:
     Exits with 1 where Dask cannot start it, as where its process is killed while it starts; the supervisor tells that.
     """
     process.die_with_parent()
+    sys.warnoptions.append(LEAKED)
     try:
         asyncio.run(serve(**json.loads(stated), asked=Connection(int(handle))))
     except Exception as error:  # whatever Dask raises

@@ -3,7 +3,8 @@
 A trial starts a scheduler and `firsthit worker`, which serves each device of this machine by a process of its own, runs
 a config on them again and again, and disturbs them until it has done so EACH times: one time it kills the scheduler,
 which is started again at its address, one time it stops a worker of Dask so that it hangs, else it kills a worker or
-its nanny. Each run must end by itself, with the rows of a run without a cluster.
+its nanny. Each run must end by itself, with the rows of a run without a cluster. Where a step lost LOSSES workers one
+after the other, which is what a step that ends its workers looks like, its cell is run again with `--retry failed`.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+from harness.cluster.executor import LOSSES
 from harness.devices.discovery import discover_devices
 from tests.campaigns import frame, processes
 from tests.campaigns.frame import Campaign, Fell, Place
@@ -124,9 +126,9 @@ def _disturb(
 
     Returns `pace`, the seconds in which workers start; where that is 0, how long the run took to find them.
     """
+    finished: dict[str, bytes] = {}
     words = ("run", "small.toml", "--runs", runs, "--cluster", scheduler.address)
     command = Command(own, words, environment=STACKS)
-    finished: dict[str, bytes] = {}
     start = time.monotonic()
     end, after = start + LONGEST, 0.0
     while command.process.poll() is None:
@@ -145,10 +147,21 @@ def _disturb(
             raise Fell(f"`run --cluster` did not end within {LONGEST:.0f} s; it told {told[:2000]} … {told[-6000:]}")
         time.sleep(0.1)
     code, told = command.ended()
+    if code == 3 and (lost := _lost(own / runs)):
+        outcomes["cells given up after a step lost its worker again and again"] += len(lost)
+        code, told = Command(own, (*words, "--retry", "failed"), environment=STACKS).ended(within=LONGEST)
+        finished = {name: content for name, content in finished.items() if name not in lost}
     if code != 0:
         raise Fell(f"`run --cluster` ended with {code}: {told[-2500:]}")
     _seen(own / runs, finished)
     return pace
+
+
+def _lost(runs: Path) -> list[str]:
+    """Name the rows of cells that were given up since one step lost its worker again and again."""
+    told = {name: json.loads(content) for name, content in processes.rows(runs).items()}
+    given_up = f"lost its worker {LOSSES} times"
+    return [name for name, row in told.items() if row["status"] == "crashed" and given_up in str(row["reason"])]
 
 
 def _has_begun(runs: Path) -> bool:
