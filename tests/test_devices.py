@@ -9,8 +9,16 @@ import pytest
 import surfaces
 from harness.contract import FirsthitError, RayStatus, TruthStatus, View
 from harness.devices.executor import LocalExecutor
-from harness.devices.interface import find_devices, hits_from, launch_camera, launch_rays, map_rows, open_device
-from harness.devices.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
+from harness.devices.interface import (
+    Timing,
+    find_devices,
+    hits_from,
+    launch_camera,
+    launch_rays,
+    map_rows,
+    open_device,
+)
+from harness.devices.probes import PEAK_OPERATIONS, PEAK_SHAPES, _peak, peak_section, probe
 from harness.kernels.assemble import map_program, method_program
 from harness.kernels.sections import KERNELS, file_section
 from harness.oracle import first_hits
@@ -155,3 +163,36 @@ def test_a_gpu_agrees_with_the_oracle():
     crossing = first_hits(surface, rays).status == TruthStatus.CROSSING
     for name in gpus:
         assert np.mean((cast(opened(name), "newton", surface, "float32", rays).status == 1) == crossing) > 0.999
+
+
+class _BusyDevice:
+    """Stands for a device whose clock is right, on a busy machine: the fastest launch waits for half its time."""
+
+    language = "cl"
+
+    def __init__(self) -> None:
+        self.launches = 0
+
+    def build(self, program):
+        return program
+
+    def launch(self, built, inputs, outputs, grid):
+        del built, inputs, outputs, grid
+        return self
+
+    def run(self, times=1):
+        del times
+        self.launches += 1
+        return Timing(6.0, 2.9) if self.launches % 5 == 0 else Timing(7.0, 6.6)
+
+    def release(self):
+        pass
+
+
+def test_one_launch_that_had_to_wait_does_not_decide_whose_clock_is_trusted():
+    assert np.median(_peak(_BusyDevice()).clock_ratios) == pytest.approx(6.6 / 7.0)
+
+
+def test_a_device_without_a_clock_has_no_ratio(monkeypatch):
+    monkeypatch.setattr(_BusyDevice, "run", lambda _: Timing(7.0, None))
+    assert _peak(_BusyDevice()).clock_ratios == ()

@@ -37,7 +37,7 @@ PEAK_SHAPES = (
     (64, False),
     (96, True),
 )
-BELIEVABLE = (0.5, 1.05)  # least and most that a trusted device clock tells of a launch of some ms, over the host's
+BELIEVABLE = (0.5, 1.05)  # least and most of Probes.clock_ratio at which a device's clock is trusted
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,8 @@ class Probes:
     peak_gflops: the best rate of any of PEAK_SHAPES
     peak_median_gflops: the rate of the median launch of that shape, which shows how far the best one may be trusted
     peak_shape: that shape, in words
-    clock_ratio: the device's clock over the host's; None if the device has none
+    clock_ratio: the device's clock over the host's, the median over all launches that measured the peak, each of about
+        PEAK_MS or more; None if the device has no clock
     """
 
     two_sum: Annotated[float, SHARE]
@@ -92,7 +93,7 @@ def probe(device: Device) -> Probes:
         peak_gflops=peak.gflops,
         peak_median_gflops=peak.median,
         peak_shape=peak.shape,
-        clock_ratio=peak.clock_ratio,
+        clock_ratio=float(np.median(peak.clock_ratios)) if peak.clock_ratios else None,
     )
 
 
@@ -105,13 +106,13 @@ def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
 class _Peak:
     """Hold rates in Gflop/s: of the best launch and of the median one.
 
-    clock_ratio: of the best launch
+    clock_ratios: the device's clock over the host's, of each launch that the device's clock told of
     """
 
     gflops: float
     median: float
     shape: str
-    clock_ratio: float | None
+    clock_ratios: tuple[float, ...]
 
 
 def _peak(device: Device) -> _Peak:
@@ -119,12 +120,16 @@ def _peak(device: Device) -> _Peak:
 
     The fastest launch is taken because other work on the machine can only slow a launch. The median rate of the same
     shape is returned beside it. If the median is far below, the machine was busy, and the peak depends on chance.
+
+    The clocks' ratios are of all launches. A launch that waits for a processor that other programs hold takes longer by
+    the host's clock alone, so that one launch may tell half its time by a clock that is right, also the fastest one.
     """
     tried = [(_rate(device, shape, tries=2), shape) for shape in PEAK_SHAPES]
     tried.sort(key=lambda pair: -pair[0].gflops)
     again = [_rate(device, shape, PEAK_TRIES) for _, shape in tried[:PEAK_FINALISTS]]
     best = max([tried[0][0], *again], key=lambda peak: peak.gflops)
-    return replace(best, median=next(peak.median for peak in again if peak.shape == best.shape))
+    ratios = tuple(ratio for peak in (*(peak for peak, _ in tried), *again) for ratio in peak.clock_ratios)
+    return replace(best, median=next(peak.median for peak in again if peak.shape == best.shape), clock_ratios=ratios)
 
 
 def peak_section(chains: int, fused: bool) -> Section:
@@ -178,5 +183,5 @@ def _rate(device: Device, shape: tuple[int, bool], tries: int) -> _Peak:
     best = min(timings, key=lambda timing: timing.wall_ms)
     typical = float(np.median([timing.wall_ms for timing in timings]))
     operations = 2 * shape[0] * _turns(shape[0]) * items
-    ratio = None if best.device_ms is None else best.device_ms / best.wall_ms
-    return _Peak(operations / best.wall_ms * 1e-6, operations / typical * 1e-6, _words(*shape), ratio)
+    ratios = tuple(timing.device_ms / timing.wall_ms for timing in timings if timing.device_ms is not None)
+    return _Peak(operations / best.wall_ms * 1e-6, operations / typical * 1e-6, _words(*shape), ratios)
