@@ -272,3 +272,22 @@ def test_mistakes_are_one_line(tmp_path, capsys, arguments, words):
     err = capsys.readouterr().err
     assert words in err
     assert err.count("\n") == 1 or "^" in err
+
+
+def test_a_disturbance_makes_no_variant_fall_before_it_is_timed_well(tmp_path, info, monkeypatch):
+    wish, catalog = Wish(surfaces.get("sphere"), ERROR, views=1), find_methods()
+    newton, yuksel, sturm = variants = [catalog.get(name).variant({}) for name in ("newton", "yuksel", "sturm")]
+    times = {newton: [1.0] * 8, yuksel: [0.9, 0.9, *[3.0] * 6], sturm: [2.1] * 8}
+    asked = []
+
+    def rows(_, of, __, view, size, seconds):
+        asked.append(tuple(of))
+        assert view and size and seconds
+        stated = {v: {"rounds": [*range(8)], "median_ms": float(np.median(times[v]))} for v in of}
+        return {v: {"time": {"samples_ms": times[v], **stated[v]}} for v in of}
+
+    monkeypatch.setattr(Search, "_rows", rows)
+    made = Search(wish, catalog, info, None, Lock(tmp_path, "t"), Watcher())
+    _, slow = made._race(list(variants), "float32", Recommendation(info), dict.fromkeys(variants, (1e-6, 9.0)))
+    assert asked == [tuple(variants), (newton, yuksel)], "nothing proves that yuksel takes twice as long"
+    assert [fallen.variant for fallen in slow] == [sturm] and slow[0].times == 2.1

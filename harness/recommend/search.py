@@ -28,6 +28,7 @@ from harness.results.figures import disproved
 from harness.results.lock import Lock
 from harness.results.row import Accuracy
 from harness.results.store import Row, Store
+from harness.results.timings import Ratio, paired_ratio
 from harness.running import batch
 from harness.running.environment import probed
 from harness.running.run import Watcher
@@ -35,7 +36,7 @@ from harness.running.trace import usable_device
 
 LEVEL = 0.01  # the largest chance that is evidence of a difference of times, as in reports
 CONTENDERS = 6  # timed on every view and checked on held-out ones
-HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture: not timed further
+HOPELESS = 2.0  # times the fastest, as a first, short timing of a small picture proves: not timed further
 STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
 SMALL = 128  # pixels per side of that picture, at most
 FRONT = View("picture")  # of the picture of what is recommended
@@ -282,25 +283,28 @@ class Search:
         """
         small = min(SMALL, self._wish.size)
         many = f"{plural(len(alive), 'variant')} shortly, at {small}x{small}"
-        told = f"one that takes over {HOPELESS:g} times as long as the fastest falls"
+        told = f"one that surely takes over {HOPELESS:g} times as long as the fastest falls"
         self._watcher.told(f"{precision}: step 2 of 3 times {many}; {told}")
-        short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
-        order = sorted(short, key=lambda variant: short[variant])
-        chosen = [v for v in order[:CONTENDERS] if short[v] <= HOPELESS * short[order[0]]]
+        timed = self._timed(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
+        if not timed:
+            return {}, []
+        first, over = _over_fastest(timed)
+        order = sorted(over, key=lambda variant: over[variant].median)
+        chosen = [v for v in order if over[v].lower <= HOPELESS][:CONTENDERS]
         slow = []
-        for variant in order[len(chosen) :]:
-            times = short[variant] / short[order[0]]
-            told = f"{times:.3g} times as long as {named(order[0])}: {short[variant]:.3g} ms at {small}x{small}"
+        for variant in (v for v in order if v not in chosen):
+            times, ms = over[variant].median, timed[variant]["median_ms"]
+            told = f"{times:.3g} times as long as {named(first)}: {ms:.3g} ms at {small}x{small}"
             why = f"keeps the error, but takes {told}"
             slow.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
         many = f"{plural(len(chosen), 'variant')} in turns on {plural(len(self._tuning), 'view')}"
         self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
-        wish, by_view = self._wish, []
+        wish = self._wish
         self._times.clear()
         for view in self._tuning:
-            by_view.append(self._medians(chosen, precision, view, wish.size, wish.seconds, found))
-            chosen = list(by_view[-1])
-        means = {v: sum(times[v] for times in by_view) / len(by_view) for v in chosen}
+            self._times.append(self._timed(chosen, precision, view, wish.size, wish.seconds, found))
+            chosen = list(self._times[-1])
+        means = {v: sum(times[v]["median_ms"] for times in self._times) / len(self._times) for v in chosen}
         fastest = min(means.values(), default=0.0)
         for variant, ms in list(means.items()):
             if self._wish.fps and 1e3 / ms < self._wish.fps:
@@ -311,7 +315,7 @@ class Search:
                 del means[variant]
         return means, slow
 
-    def _medians(
+    def _timed(
         self,
         of: list[Variant],
         precision: Precision,
@@ -319,8 +323,8 @@ class Search:
         size: int,
         seconds: float,
         found: Recommendation,
-    ) -> dict[Variant, float]:
-        """Return the median time of a frame in ms of each variant; those that could not be timed on this view fall."""
+    ) -> dict[Variant, Mapping[str, Any]]:
+        """Return what a row says of the time of each variant; those that could not be timed on this view fall."""
         rows = self._rows(of, precision, view, size, seconds)
         for variant, row in rows.items():
             if not row["time"]:
@@ -328,8 +332,7 @@ class Search:
                     f"could not be timed on view {view.name} ({row['status']}): {' '.join(str(row['reason']).split())}"
                 )
                 found.fallen.append(Fallen(variant, precision, Cause.FAILED, why))
-        self._times.append({variant: row["time"] for variant, row in rows.items() if row["time"]})
-        return {variant: row["time"]["median_ms"] for variant, row in rows.items() if row["time"]}
+        return {variant: row["time"] for variant, row in rows.items() if row["time"]}
 
     def _rows(
         self,
@@ -369,6 +372,17 @@ class Search:
             self._watcher.told(f"{precision}: times of an earlier search are not compared with new ones: {many} again")
             rows, _ = batch.rows_of(*stated, self._lock, force=True)
         return {p.cell.variant: rows[p.key] for p in planned}
+
+
+def _over_fastest(timed: Mapping[Variant, Mapping[str, Any]]) -> tuple[Variant, dict[Variant, Ratio]]:
+    """Return the variant of the least median, and the time of each over its, round by round; there is at least one.
+
+    What slows the machine for a while slows both times of a round, or widens the interval.
+    """
+    first = min(timed, key=lambda variant: timed[variant]["median_ms"])
+    least = timed[first]["samples_ms"], timed[first]["rounds"]
+    ratios = {v: paired_ratio(time["samples_ms"], time["rounds"], *least) for v, time in timed.items()}
+    return first, {variant: ratio for variant, ratio in ratios.items() if ratio}
 
 
 def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
