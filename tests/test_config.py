@@ -5,6 +5,7 @@ import pytest
 
 from harness.contract import DeviceInfo, FirsthitError, Sphere
 from harness.experiment import config, plan, reading
+from harness.gate import race
 from harness.plugins import find_methods
 
 GOOD = """title = "t"
@@ -182,3 +183,11 @@ def test_the_config_of_the_docs_is_taken_as_printed(tmp_path):
     experiment = reading.load(tmp_path / "mine.toml", find_methods())
     assert (experiment.config.baseline, experiment.config.focus) == ("ray_march", "newton")
     assert experiment.config.budget.rounds == 8
+
+
+@pytest.mark.parametrize(("seconds", "timed"), [("0", False), ("0.5", True)])
+def test_a_budget_of_no_seconds_times_nothing(tmp_path, seconds, timed):
+    experiment = _load(tmp_path, f"{GOOD}[budget]\nseconds = {seconds}\n")
+    planned = plan.plan(experiment, find_methods(), [DeviceInfo("opencl:none", "", "", "", 1, True, "wall", ())])
+    assert {one.is_timed for one in planned} == {timed} == {one.frame is not None for one in planned}
+    assert (race.tolerance_of(experiment) is not None) is timed

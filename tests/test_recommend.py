@@ -9,7 +9,7 @@ import surfaces
 from harness import ROOT
 from harness.accuracy.judge import Wrong, judge
 from harness.cli import main
-from harness.contract import View
+from harness.contract import FirsthitError, View
 from harness.devices.executor import LocalExecutor
 from harness.oracle import first_hits
 from harness.plugins import Catalog, find_methods
@@ -272,6 +272,11 @@ def test_mistakes_are_one_line(tmp_path, capsys, arguments, words):
     err = capsys.readouterr().err
     assert words in err
     assert err.count("\n") == 1 or "^" in err
+
+
+def test_a_search_without_time_is_refused():
+    with pytest.raises(FirsthitError, match="seconds: 0.0 is outside"):
+        Wish(surfaces.get("sphere"), ERROR, seconds=0.0)
 
 
 def test_a_disturbance_makes_no_variant_fall_before_it_is_timed_well(tmp_path, info, monkeypatch):

@@ -29,10 +29,10 @@ from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
 from harness.contract import CLAIMS, PRECISIONS, FirsthitError
 from harness.escaping import shell
-from harness.limits import PIXELS, RAYS, SECONDS, SEED
+from harness.limits import PIXELS, RAYS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
-from harness.recommend.model import ERROR, FPS, HEADROOM, QUANTILES, VIEWS, Recommendation, Wish, named
+from harness.recommend.model import ERROR, FPS, HEADROOM, QUANTILES, SECONDS, VIEWS, Recommendation, Wish, named
 from harness.recommend.search import recommend
 
 NOTHING_HOLDS = 1

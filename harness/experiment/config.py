@@ -182,7 +182,7 @@ class AccuracyChoice:
 class BudgetChoice:
     """Say what one cell may cost.
 
-    seconds: a cell is timed for so long, or until the median is known well enough
+    seconds: a cell is timed for so long, or until the median is known well enough; with 0 it is checked only
     interval: the median is known well enough if its 95 % interval is within this share of it
     rounds: a slow cell is timed in at least so many rounds, though they take up to 16 times `seconds`, since fewer
         cannot tell two variants apart (8 at the level of reports.analysis.ties)

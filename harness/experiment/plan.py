@@ -176,12 +176,14 @@ def plan(
 ) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
+    No cell is timed where the config's budget for it is 0 seconds, whatever `timed` says.
+
     With `only`, names of `together`, the other groups' cells are left out. `hosts` are the machines of devices that are
     not this one's, by the devices' names. `tell` hears of each cell before its programs are made, since a surface's
     tables may take seconds. Raises FirsthitError where none of the devices that the config names is among those
     `found`.
     """
-    planned, shared = [], Shared()
+    planned, shared, timed = [], Shared(), timed and experiment.config.budget.seconds > 0.0
     total = cells_of(experiment, catalog, found)
     for at, (cell, info) in enumerate(grid(experiment, catalog, found)):
         if only is None or cell.together in only:

@@ -40,7 +40,9 @@ Clock = Literal["device", "wall", "processor"]
 
 
 def tolerance_of(experiment: Experiment) -> Tolerance | None:
-    """Return how much slower a frame may get; None where the config does not want speed gated."""
+    """Return how much slower a frame may get; None where the config does not want speed gated, or times nothing."""
+    if experiment.config.budget.seconds == 0.0:
+        return None
     own = experiment.config.gate.figures.get(SPEED.name)
     if own is None:
         return Tolerance("lower", 0.0, SPEED.relative)
