@@ -7,6 +7,7 @@ import signal
 import tempfile
 import zlib
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -16,8 +17,9 @@ import pytest
 from harness.conformance import dense
 from harness.contract import DeviceInfo
 from harness.devices import kept_answers
-from harness.devices.executor import LocalExecutor
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
+from harness.memory import Watch
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
 CACHES = {"PYOPENCL_NO_CACHE": "0", "POCL_KERNEL_CACHE": "1", "MESA_SHADER_CACHE_DISABLE": "false"}
@@ -46,16 +48,62 @@ def all_round() -> str:
 
 @pytest.fixture(scope="module")
 def devices_found_once() -> Iterator[None]:
-    """Let commands that run in this process find its devices at once.
+    """Let commands that run in this process find its devices at once, and hand their workers on to one another.
 
-    Otherwise each command looks for them in a process of its own, which takes longer than what most tests are about.
-    Tests that run commands in processes of their own still do so. What the user's cache folder holds of devices is left
-    alone.
+    Otherwise each command looks for devices in a process of its own, and starts a worker that loads its driver, which
+    takes longer than what most tests are about. Tests that run commands in processes of their own still do so. What the
+    user's cache folder holds of devices is left alone.
     """
+    kept: dict[str, Any] = {}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
+        _keep_workers(patched, kept)
         yield
+    for worker in kept.values():
+        worker.connection.close()
+        worker.process.wait(60)
+
+
+def _keep_workers(patched: pytest.MonkeyPatch, kept: dict[str, Any]) -> None:
+    """Let an executor that is closed leave its workers in `kept`, by device, and the next one take them from there.
+
+    A worker that was lost, or left in the middle of a step, is not kept.
+    """
+    start, ask, close = LocalExecutor._start, LocalExecutor._ask, LocalExecutor.close
+    busy: set[Any] = set()  # workers that were asked and have not answered
+
+    def started(self: LocalExecutor, device: str) -> Any:
+        if device not in self._processes and device in kept:
+            worker = kept.pop(device)
+            self._processes[device] = replace(worker, watch=Watch(worker.process.pid, self._share))
+        return start(self, device)
+
+    def asked(self: LocalExecutor, device: str, *arguments: Any) -> Any:
+        worker = self._start(device)
+        busy.add(worker)
+        try:
+            answer = ask(self, device, *arguments)
+        except CellError:
+            busy.discard(worker)
+            raise
+        busy.discard(worker)
+        return answer
+
+    def closed(self: LocalExecutor) -> None:
+        for key, device in list(self._warm.items()):
+            if self._processes.get(device) not in busy:
+                self.release(device, key)
+        for device, worker in list(self._processes.items()):
+            if worker in busy or device in kept or worker.process.poll() is not None:
+                continue
+            self.builds(device)  # which the next command is not to tell as its own
+            kept[device] = self._processes.pop(device)
+        close(self)
+
+    patched.setattr(LocalExecutor, "_start", started)
+    patched.setattr(LocalExecutor, "_ask", asked)
+    patched.setattr(LocalExecutor, "close", closed)
 
 
 @pytest.fixture
