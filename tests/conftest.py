@@ -6,16 +6,18 @@ import os
 import signal
 import tempfile
 import zlib
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from harness import plugins
 from harness.conformance import dense
-from harness.contract import DeviceInfo
+from harness.contract import DeviceInfo, Method
 from harness.devices import kept_answers
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
@@ -23,6 +25,26 @@ from harness.memory import Watch
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
 CACHES = {"PYOPENCL_NO_CACHE": "0", "POCL_KERNEL_CACHE": "1", "MESA_SHADER_CACHE_DISABLE": "false"}
+
+
+_LOADED: dict[Path, Method] = {}
+
+
+def _load_once(load: Callable[[Any, Path], Method]) -> Callable[[Any, Path], Method]:
+    """Let a loader of methods read each of firsthit's own once for all tests. No test writes into their folders."""
+    own = plugins.BUILT_IN
+
+    def loaded(self: Any, folder: Path) -> Method:
+        if folder.parent != own:
+            return load(self, folder)
+        if folder not in _LOADED:
+            _LOADED[folder] = load(self, folder)
+        return _LOADED[folder]
+
+    return loaded
+
+
+plugins._Loader._load = _load_once(plugins._Loader._load)  # type: ignore[method-assign]
 
 
 @cache
