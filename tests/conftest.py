@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import signal
 import tempfile
+import threading
 import zlib
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
@@ -69,20 +71,26 @@ def all_round() -> str:
 
 
 @pytest.fixture(scope="module")
-def devices_found_once() -> Iterator[None]:
+def devices_found_once() -> Iterator[Callable[[], None]]:
     """Let commands that run in this process find its devices at once, and hand their workers on to one another.
 
     Otherwise each command looks for devices in a process of its own, and starts a worker that loads its driver, which
     takes longer than what most tests are about. Tests that run commands in processes of their own still do so. What the
-    user's cache folder holds of devices is left alone.
+    user's cache folder holds of devices is left alone. Yields a function that ends the workers that are waiting,
+    after which a command builds each program itself.
     """
     kept: dict[str, Any] = {}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         _keep_workers(patched, kept)
-        yield
-    for worker in kept.values():
+        yield functools.partial(_end_workers, kept)
+    _end_workers(kept)
+
+
+def _end_workers(kept: dict[str, Any]) -> None:
+    while kept:
+        _, worker = kept.popitem()
         worker.connection.close()
         worker.process.wait(60)
 
@@ -90,16 +98,22 @@ def devices_found_once() -> Iterator[None]:
 def _keep_workers(patched: pytest.MonkeyPatch, kept: dict[str, Any]) -> None:
     """Let an executor that is closed leave its workers in `kept`, by device, and the next one take them from there.
 
-    A worker that was lost, or left in the middle of a step, is not kept.
+    A worker that was lost, or left in the middle of a step, is not kept, nor one that a thread of a command started,
+    since a worker ends with the thread that started it (harness.hosting.process).
     """
     start, ask, close = LocalExecutor._start, LocalExecutor._ask, LocalExecutor.close
     busy: set[Any] = set()  # workers that were asked and have not answered
+    lasting: set[Any] = set()  # processes that this process's main thread started
 
     def started(self: LocalExecutor, device: str) -> Any:
         if device not in self._processes and device in kept:
             worker = kept.pop(device)
             self._processes[device] = replace(worker, watch=Watch(worker.process.pid, self._share))
-        return start(self, device)
+        fresh = device not in self._processes
+        worker = start(self, device)
+        if fresh and threading.current_thread() is threading.main_thread():
+            lasting.add(worker.process)
+        return worker
 
     def asked(self: LocalExecutor, device: str, *arguments: Any) -> Any:
         worker = self._start(device)
@@ -117,7 +131,7 @@ def _keep_workers(patched: pytest.MonkeyPatch, kept: dict[str, Any]) -> None:
             if self._processes.get(device) not in busy:
                 self.release(device, key)
         for device, worker in list(self._processes.items()):
-            if worker in busy or device in kept or worker.process.poll() is not None:
+            if worker in busy or device in kept or worker.process not in lasting or worker.process.poll() is not None:
                 continue
             self.builds(device)  # which the next command is not to tell as its own
             kept[device] = self._processes.pop(device)
