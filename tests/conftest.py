@@ -2,25 +2,51 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import signal
 import tempfile
+import threading
 import zlib
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from harness import plugins
 from harness.conformance import dense
-from harness.contract import DeviceInfo
+from harness.contract import DeviceInfo, Method
 from harness.devices import kept_answers
-from harness.devices.executor import LocalExecutor
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
+from harness.memory import Watch
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
 CACHES = {"PYOPENCL_NO_CACHE": "0", "POCL_KERNEL_CACHE": "1", "MESA_SHADER_CACHE_DISABLE": "false"}
+
+
+_LOADED: dict[Path, Method] = {}
+
+
+def _load_once(load: Callable[[Any, Path], Method]) -> Callable[[Any, Path], Method]:
+    """Let a loader of methods read each of firsthit's own once for all tests. No test writes into their folders."""
+    own = plugins.BUILT_IN
+
+    def loaded(self: Any, folder: Path) -> Method:
+        if folder.parent != own:
+            return load(self, folder)
+        if folder not in _LOADED:
+            _LOADED[folder] = load(self, folder)
+        return _LOADED[folder]
+
+    return loaded
+
+
+plugins._Loader._load = _load_once(plugins._Loader._load)  # type: ignore[method-assign]
 
 
 @cache
@@ -45,17 +71,75 @@ def all_round() -> str:
 
 
 @pytest.fixture(scope="module")
-def devices_found_once() -> Iterator[None]:
-    """Let commands that run in this process find its devices at once.
+def devices_found_once() -> Iterator[Callable[[], None]]:
+    """Let commands that run in this process find its devices at once, and hand their workers on to one another.
 
-    Otherwise each command looks for them in a process of its own, which takes longer than what most tests are about.
-    Tests that run commands in processes of their own still do so. What the user's cache folder holds of devices is left
-    alone.
+    Otherwise each command looks for devices in a process of its own, and starts a worker that loads its driver, which
+    takes longer than what most tests are about. Tests that run commands in processes of their own still do so. What the
+    user's cache folder holds of devices is left alone. Yields a function that ends the workers that are waiting,
+    after which a command builds each program itself.
     """
+    kept: dict[str, Any] = {}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
-        yield
+        _keep_workers(patched, kept)
+        yield functools.partial(_end_workers, kept)
+    _end_workers(kept)
+
+
+def _end_workers(kept: dict[str, Any]) -> None:
+    while kept:
+        _, worker = kept.popitem()
+        worker.connection.close()
+        worker.process.wait(60)
+
+
+def _keep_workers(patched: pytest.MonkeyPatch, kept: dict[str, Any]) -> None:
+    """Let an executor that is closed leave its workers in `kept`, by device, and the next one take them from there.
+
+    A worker that was lost, or left in the middle of a step, is not kept, nor one that a thread of a command started,
+    since a worker ends with the thread that started it (harness.hosting.process).
+    """
+    start, ask, close = LocalExecutor._start, LocalExecutor._ask, LocalExecutor.close
+    busy: set[Any] = set()  # workers that were asked and have not answered
+    lasting: set[Any] = set()  # processes that this process's main thread started
+
+    def started(self: LocalExecutor, device: str) -> Any:
+        if device not in self._processes and device in kept:
+            worker = kept.pop(device)
+            self._processes[device] = replace(worker, watch=Watch(worker.process.pid, self._share))
+        fresh = device not in self._processes
+        worker = start(self, device)
+        if fresh and threading.current_thread() is threading.main_thread():
+            lasting.add(worker.process)
+        return worker
+
+    def asked(self: LocalExecutor, device: str, *arguments: Any) -> Any:
+        worker = self._start(device)
+        busy.add(worker)
+        try:
+            answer = ask(self, device, *arguments)
+        except CellError:
+            busy.discard(worker)
+            raise
+        busy.discard(worker)
+        return answer
+
+    def closed(self: LocalExecutor) -> None:
+        for key, device in list(self._warm.items()):
+            if self._processes.get(device) not in busy:
+                self.release(device, key)
+        for device, worker in list(self._processes.items()):
+            if worker in busy or device in kept or worker.process not in lasting or worker.process.poll() is not None:
+                continue
+            self.builds(device)  # which the next command is not to tell as its own
+            kept[device] = self._processes.pop(device)
+        close(self)
+
+    patched.setattr(LocalExecutor, "_start", started)
+    patched.setattr(LocalExecutor, "_ask", asked)
+    patched.setattr(LocalExecutor, "close", closed)
 
 
 @pytest.fixture

@@ -51,7 +51,11 @@ def test_a_run_and_a_trace_work_with_nothing_else(environment, tmp_path):
     if not usable_devices():
         pytest.skip("no device")
     config = tmp_path / "t.toml"
-    config.write_text(CONFIG.format(device="all", seconds=0.05, more=""))
+    text = CONFIG.format(device="all", seconds=0.05, more="")
+    for many, few in ((', "torus"', ""), (", 0.0001, 0.00001", "")):
+        assert text.count(many) == 1
+        text = text.replace(many, few)
+    config.write_text(text)
     result = _python(environment, "-m", "harness.cli", "run", config, "--runs", tmp_path / "runs")
     assert result.returncode == 0, result.stderr
     assert " ok" in result.stdout

@@ -32,7 +32,7 @@ FORMULAS = {
     "waves": ("sin(3*x) + sin(3*y) + sin(3*z)", "sphere:1.5"),
     "bulged ball": ("x^6 + y^6 + z^6 + x^2*y^2 - 0.8", "sphere:1.5"),
 }
-METHODS = ("newton", "interval_march", "eft_yuksel", "yuksel", "ray_march")
+METHODS = ("newton", "interval_march", "eft_yuksel")
 ERROR = 1e-4
 
 

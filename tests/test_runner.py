@@ -1,7 +1,9 @@
 """Runs for real: kill the runner, kill a worker, and plugins that do not compile, hang and crash."""
 
+import functools
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -54,18 +56,34 @@ def rows(folder: Path):
     return plan["cells"], found
 
 
+@pytest.fixture(scope="module")
+def finished_once(tmp_path_factory):
+    """The folder of a run of the config as it is written by default, made once."""
+    folder = tmp_path_factory.mktemp("finished")
+    first = run("run", written(folder), "--runs", folder / "runs")
+    assert first.returncode == 0, first.stderr
+    return folder / "runs"
+
+
 @pytest.fixture
-def config(tmp_path):
+def finished(tmp_path, finished_once):
+    """A copy of that run, in the test's own folder `runs`."""
+    return shutil.copytree(finished_once, tmp_path / "runs")
+
+
+def written(folder, seconds=0.05, more=""):
+    """Write the config into a folder."""
     devices = [info.name for info in usable_devices() if info.name.startswith("opencl:")]
     if not devices:
         pytest.skip("no OpenCL device")
+    path = folder / "t.toml"
+    path.write_text(CONFIG.format(device=devices[0], seconds=seconds, more=more))
+    return path
 
-    def write(seconds=0.05, more=""):
-        path = tmp_path / "t.toml"
-        path.write_text(CONFIG.format(device=devices[0], seconds=seconds, more=more))
-        return path
 
-    return write
+@pytest.fixture
+def config(tmp_path):
+    return functools.partial(written, tmp_path)
 
 
 def wait_for(condition, seconds=90.0):
@@ -101,10 +119,8 @@ def is_running(pid):
         return False
 
 
-def test_a_second_run_reuses_every_cell_and_force_repeats_them(tmp_path, config):
-    path, runs = config(), tmp_path / "runs"
-    first = run("run", path, "--runs", runs)
-    assert first.returncode == 0, first.stderr
+def test_a_second_run_reuses_every_cell_and_force_repeats_them(config, finished):
+    path, runs = config(), finished
     cells, before = rows(runs / "t")
     assert {row["status"] for row in before.values()} == {"ok"}
     assert len(before) == len(cells) == 8
@@ -233,9 +249,8 @@ def test_plugins_that_do_not_compile_hang_or_crash_cost_a_row_each(tmp_path, con
     assert [row["status"] for row in others] == ["ok"] * 4
 
 
-def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
-    path, runs = config(), tmp_path / "runs"
-    assert run("run", path, "--runs", runs).returncode == 0
+def test_a_truncated_row_is_told_and_run_again(config, finished):
+    path, runs = config(), finished
     victim = next((runs / "t" / "cells").glob("*.json"))
     victim.write_bytes(victim.read_bytes()[:100])
     again = run("run", path, "--runs", runs)
@@ -244,9 +259,8 @@ def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
     assert "1 cell run, 7 reused" in again.stdout
 
 
-def test_why_names_what_changed(tmp_path, config):
-    path, runs = config(), tmp_path / "runs"
-    assert run("run", path, "--runs", runs).returncode == 0
+def test_why_names_what_changed(config, finished):
+    path, runs = config(), finished
     path.write_text(path.read_text().replace("size = 16", "size = 17"))
     assert run("run", path, "--runs", runs).returncode == 0
     key = rows(runs / "t")[0][0]["key"]

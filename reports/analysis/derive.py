@@ -32,7 +32,8 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     """
     given, answers = frame, frame["answers"].astype(bool)
     silent = np.flatnonzero(~answers)
-    changed = {name for name in _ACCURACY if name in frame and frame[name].iloc[silent].notna().any()}
+    stated = [name for name in _ACCURACY if name in frame] if len(silent) else []
+    changed = {name for name in stated if frame[name].iloc[silent].notna().any()}
     frame = frame.assign(**{name: frame[name].where(answers) for name in changed})
     for name in _DROWNED:  # older rows do not count these rays apart
         if (older := frame[name].isna() & frame["misses"].notna()).any():
@@ -183,6 +184,8 @@ def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
     The index is that of `frame`; NaN where no null method was timed. It is the null method with rays of the row's own
     origin where that was timed, else any null method of the group.
     """
+    if floor_rows(timed).empty:
+        return pd.Series(np.nan, frame.index, timed["median_ms"].dtype)
     own, other = (
         frame.join(floor_rows(timed, keys).set_index(keys)["median_ms"].rename("null_ms"), on=keys)["null_ms"]
         for keys in ([*GROUP, "origin"], GROUP)

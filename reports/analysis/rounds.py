@@ -191,6 +191,11 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
     to `ratio_high` (NaN where there are too few common rounds for one); `slow_ms`, `fast_ms` and `key_slow`. Pairs
     without a common round are left out. All rows given are timed ones.
     """
+    if slow.empty or fast.empty:  # a join of nothing takes as long as one of some rows
+        nothing = {name: pd.Series(dtype="float64") for name in _RATIO}
+        named = (("slow_ms", slow["median_ms"]), ("fast_ms", fast["median_ms"]), ("key_slow", slow["key"]))
+        nothing |= {name: own.head(0).reset_index(drop=True) for name, own in named}
+        return fast.head(0).reset_index(drop=True).assign(**nothing)
     told = [*keys, "key", "median_ms", *COLUMNS]
     both = fast[told].assign(at=range(len(fast))).merge(slow[told], on=keys, suffixes=("", "_slow"))
     paired = ratios(both, "_slow")

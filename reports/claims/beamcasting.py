@@ -173,7 +173,10 @@ def _less_idle(before: Pick, after: Pick) -> Judge:
     """Make a judge of "`after` leaves less idle than `before`": by more than TOLD_APART, on every surface."""
 
     def decide(evidence: Evidence) -> Verdict | None:
-        both = _idle(evidence, before).merge(_idle(evidence, after), on=derive.GROUP, suffixes=("", "_after"))
+        own, other = (_idle(evidence, pick) for pick in (before, after))
+        if own.empty or other.empty:
+            return None
+        both = own.merge(other, on=derive.GROUP, suffixes=("", "_after"))
         if both.empty:
             return None
         gain = both["idle"] - both["idle_after"]

@@ -152,7 +152,7 @@ class Evidence:
         all surfaces.
         """
         if pick.method not in self._told:
-            return self.frame.head(0)
+            return self._no_rows
         rows, by, origin = self._told[pick.method], self._coded[pick.method], pick.origin or self.origin
         kept = by["origin"].where(lambda own: wording.absent(own) or own == origin)
         if precision is not None:
@@ -177,11 +177,25 @@ class Evidence:
         The columns are those of `rounds.over`. Pairs without a common round are left out, and added to `apart`.
         """
         a, b = (self.rows(pick, surfaces, precision) for pick in (slow, fast))
+        if a.empty or b.empty:  # as for most claims, since few runs have the rows of all papers
+            return self._no_ratios
         return self.over(a[a["median_ms"].notna()], b[b["median_ms"].notna()], derive.GROUP)
+
+    @cached_property
+    def _no_rows(self) -> pd.DataFrame:
+        """Return the columns of `frame`, without rows."""
+        return self.frame.head(0)
+
+    @cached_property
+    def _no_ratios(self) -> pd.DataFrame:
+        """Return the columns that `ratios` returns, without rows."""
+        return rounds.over(self._no_rows, self._no_rows, derive.GROUP)
 
     def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
         """Return what `rounds.over` returns, and add the pairs of rows that it leaves out to `apart`."""
         found = rounds.over(slow, fast, keys)
+        if slow.empty or fast.empty:
+            return found
         pairs = fast[[*keys, "key"]].merge(slow[[*keys, "key"]], on=keys, suffixes=("", "_slow"))
         every, kept = (set(zip(of["key_slow"], of["key"], strict=True)) for of in (pairs, found))
         self.apart.update(every - kept)

@@ -114,8 +114,11 @@ class Columns:
             found = piece.column(name) if isinstance(piece, pa.Table) else _read(piece, name)
             return list(found.cast(kind).chunks)
 
-        with ThreadPoolExecutor(pa.cpu_count()) as beside:
-            chunks = [chunk for made in beside.map(chunks_of, self.pieces) for chunk in made]
+        if len(self.pieces) == 1:  # threads would take longer to start than a small run's rows to read
+            chunks = chunks_of(self.pieces[0])
+        else:
+            with ThreadPoolExecutor(pa.cpu_count()) as beside:
+                chunks = [chunk for made in beside.map(chunks_of, self.pieces) for chunk in made]
         whole = pa.chunked_array(chunks, kind).unify_dictionaries().combine_chunks()
         whole = whole if isinstance(whole, pa.Array) else whole.chunk(0) if whole.num_chunks else pa.array([], kind)
         return whole if self._order is None else whole.take(pa.array(self._order))

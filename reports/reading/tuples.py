@@ -15,6 +15,8 @@ def tuples(rows: pd.DataFrame) -> Iterator[Any]:
 
     No two columns have one name.
     """
+    if rows.empty:
+        return iter(())
     names = rows.columns.tolist()
     return map(_kind(tuple(names))._make, zip(rows.index, *(rows[name] for name in names), strict=True))
 
