@@ -13,8 +13,10 @@ from .synthetic_run import cell
 STATUSES = ("ok", "skipped", "failed", "timeout", "crashed")
 
 
-def planned(key, skip=None):
-    return SimpleNamespace(key=key, skip=skip, failure=None, cell=SimpleNamespace(slot=f"slot of {key}"))
+def planned(key, skip=None, method="sturm"):
+    cell = SimpleNamespace(slot=f"slot of {key}", device="opencl:intel", variant=SimpleNamespace(method=method))
+    programs = [SimpleNamespace(hash=text) for text in "aba"]
+    return SimpleNamespace(key=key, skip=skip, failure=None, cell=cell, programs=programs)
 
 
 @pytest.fixture
@@ -44,7 +46,9 @@ def test_the_estimate_is_of_the_cells_that_run_by_what_their_slots_took(store):
     def estimate(*cells, again="nothing"):
         return estimate_seconds(due(cells, store, again), store, 2.0)
 
-    assert estimate(planned("new")) == 2.0 + PREPARING
+    assert estimate(planned("new")) == 2.0 + 2 * PREPARING, "two programs"
+    assert estimate(planned("new", method="newton")) == 7.0, "as its method took on its device"
+    assert estimate(planned("new", method="newton"), planned("ok")) == 7.0, "also by a row that is kept"
     assert estimate(planned("ok"), planned("failed"), again="everything") == 14.0, "also of cells that run again"
     assert estimate(planned("none", skip="no float64")) == 0.0
     changed = planned("new")

@@ -275,7 +275,7 @@ def test_mistakes_are_one_line(tmp_path, capsys, arguments, words):
 
 
 def test_a_search_without_time_is_refused():
-    with pytest.raises(FirsthitError, match="seconds: 0.0 is outside"):
+    with pytest.raises(FirsthitError, match=r"seconds: 0\.0 is outside"):
         Wish(surfaces.get("sphere"), ERROR, seconds=0.0)
 
 

@@ -78,6 +78,12 @@ class Planned:
         return self.casting.timed
 
     @property
+    def programs(self) -> list[Program]:
+        """Return all its programs; one that is checked and timed may be there twice."""
+        others = self.casting.others if self.casting else ()
+        return [program for program in (*self.checks, self.timed, *others) if program]
+
+    @property
     def frame(self) -> Frame | None:
         """Build the frame that is timed; None if nothing is."""
         return self.casting.frame() if self.casting and self.timed else None
@@ -134,8 +140,7 @@ def _planned(
                 skip = str(error)
     lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
     planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks, None if skip else failure)
-    others = casting.others if casting else ()
-    programs = [program for program in (*planned.checks, planned.timed, *others) if program]
+    programs = planned.programs
     names = casting.methods if casting else (cell.variant.method,)
     timed = timed and kind.is_timed
     texts = {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)}
