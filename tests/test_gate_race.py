@@ -71,7 +71,8 @@ def test_a_clock_that_tells_no_time_makes_the_cell_incomparable(told):
 
 def test_speed_is_gated_unless_the_config_says_otherwise():
     def of(**figures):
-        return race.tolerance_of(SimpleNamespace(config=SimpleNamespace(gate=GateChoice(figures=figures))))
+        config = SimpleNamespace(gate=GateChoice(figures=figures), budget=BudgetChoice())
+        return race.tolerance_of(SimpleNamespace(config=config))
 
     assert of() == TOLERANCE
     assert of(speed=ToleranceChoice(relative=0.2)) == Tolerance("lower", 0.0, 0.2)

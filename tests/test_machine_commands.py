@@ -174,10 +174,10 @@ def test_a_plan_tells_each_cell_before_and_after_it_has_run(answered, ran, tmp_p
     assert (part["config"], part["title"]) == (str(config), "Cells to tell of")
     assert part["to_run"] == len(part["cells"]) == 4
     assert [(cell["surface"], cell["knobs"]["AHEAD"], cell["state"], cell["seconds"]) for cell in part["cells"]] == [
-        *(("sphere", knob, "to run", 0.31) for knob in (1, 0)),
+        *(("sphere", knob, "to run", 1.41) for knob in (1, 0)),
         *(("heart", knob, "skip", 0.0) for knob in (1, 0)),
     ]
-    assert part["seconds"] == 0.62 and "the surface states no distance" in part["cells"][2]["reason"]
+    assert part["seconds"] == 2.82 and "the surface states no distance" in part["cells"][2]["reason"]
     assert part["cells"][0]["view"] == {
         "name": "default",
         **{"azimuth": 30.0, "elevation": 30.0, "fov": 30.0, "distance": None, "target": None, "set": None},

@@ -61,7 +61,8 @@ class CellFacts:
     state: done, where a result is kept; skip, where it cannot run; else to run
     status: of the result that is kept: ok, skipped, failed, timeout or crashed; null without one
     reason: why it is skipped, did not finish or, where its method cannot be asked, will fail; null for others
-    seconds: how long it will take, by what its slot took before, or else by the budget; 0 where it does not run
+    seconds: how long it will take, by what its slot took before, else by what rows of its method and device took, else
+        by the budget and the number of its programs; 0 where it does not run
     """
 
     key: str

@@ -158,7 +158,8 @@ class ProbeFacts:
     peak_gflops: the best rate of multiply-adds, two operations each, in 10^9 operations a second
     peak_median_gflops: the rate of the median launch of the same program
     peak_shape: that program, in words
-    clock_ratio: the device's clock over the host's; null where the device has none
+    clock_ratio: the device's clock over the host's, the median over the launches that measured the peak; null where the
+        device has none
     """
 
     two_sum: float
