@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -111,36 +113,70 @@ def test_a_worker_that_lost_a_step_is_given_none_before_it_shows_signs_of_life(m
         until(lambda: engine.take(lambda _: True) is place)
 
 
-def test_a_worker_that_hangs_when_its_scheduler_ends_is_ended_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Hanging:
-        """Stand for a nanny whose worker hangs: it never ends by itself."""
+class HangingNanny:
+    """Stand for a nanny that has started, and whose worker hangs: neither ends by itself."""
 
-        def __init__(self, address: str, **_: Any) -> None:
-            self.rpc, self.scheduler = ConnectionPool(), PooledRPCCall(address, None)
+    worker_address: str | None = None
+    process = None
 
-        async def __aenter__(self) -> Hanging:
-            await self.rpc
-            return self
+    def __init__(self, address: str, **_: Any) -> None:
+        self.rpc, self.scheduler = ConnectionPool(), PooledRPCCall(address, None)
 
-        async def __aexit__(self, *_: Any) -> None:
-            await self.rpc.close()
+    def __await__(self) -> Any:
+        return self.rpc.__await__()
 
-        async def finished(self) -> None:
-            await asyncio.Event().wait()
+    async def finished(self) -> None:
+        await asyncio.Event().wait()
 
-    monkeypatch.setattr("distributed.Nanny", Hanging)
-    monkeypatch.setattr(serving, "GONE_SECONDS", 0.0)
+
+def _served(monkeypatch: pytest.MonkeyPatch, until_then: Any) -> int:
+    """Return what serve returns where `until_then` is done with its scheduler after a while, which then ends."""
+    monkeypatch.setattr("distributed.Nanny", HangingNanny)
     monkeypatch.setattr(serving, "_listen", lambda *_: None)
 
-    async def served() -> None:
+    async def served() -> int:
         async with Scheduler(host="127.0.0.1", dashboard=False) as scheduler:
             serves = asyncio.create_task(serving.serve(scheduler.address, "core 1@lab1", {}, "lab1", None))  # type: ignore[arg-type]
-            await asyncio.sleep(0.3)
-            assert not serves.done()
-        await asyncio.wait_for(serves, 20.0)
+            await until_then(serves)
+        return await asyncio.wait_for(serves, 20.0)
 
     with dask.config.set({name: dask.config.get(name) for name in serving.QUIET}):  # which are as before after it
-        asyncio.run(served())
+        return asyncio.run(served())
+
+
+def test_a_worker_that_hangs_when_its_scheduler_ends_is_ended_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def a_while(serves: asyncio.Task[int]) -> None:
+        await asyncio.sleep(0.3)
+        assert not serves.done()
+
+    monkeypatch.setattr(serving, "GONE_SECONDS", 0.0)
+    assert _served(monkeypatch, a_while) == 0
+
+
+@pytest.mark.parametrize("address", [None, "tcp://127.0.0.1:9"], ids=["as it starts", "later"])
+def test_a_worker_that_does_not_answer_is_ended(monkeypatch: pytest.MonkeyPatch, address: str | None) -> None:
+    async def end(serves: asyncio.Task[int]) -> None:
+        await asyncio.wait([serves], timeout=20.0)
+
+    monkeypatch.setattr(serving, "HANG_SECONDS", 0.3)
+    monkeypatch.setattr(HangingNanny, "worker_address", address)
+    with subprocess.Popen(["sleep", "60"]) as hanging:
+        monkeypatch.setattr(HangingNanny, "process", hanging)
+        assert _served(monkeypatch, end) == serving.HUNG
+        hanging.kill()
+
+
+def test_a_worker_that_takes_its_time_to_start_is_left_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def long(serves: asyncio.Task[int]) -> None:
+        await asyncio.sleep(2.0)
+        assert not serves.done()
+
+    monkeypatch.setattr(serving, "HANG_SECONDS", 1.0)
+    monkeypatch.setattr(serving, "GONE_SECONDS", 0.0)
+    with subprocess.Popen([sys.executable, "-c", "while True: pass"]) as busy:
+        monkeypatch.setattr(HangingNanny, "process", busy)
+        assert _served(monkeypatch, long) == 0
+        busy.kill()
 
 
 def test_steps_go_through_the_scheduler_where_a_worker_is_not_reached(monkeypatch: pytest.MonkeyPatch) -> None:

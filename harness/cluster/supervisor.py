@@ -14,6 +14,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from harness.cluster.holder import CORES
+from harness.cluster.serving import HUNG
 from harness.hosting import process
 
 AGAIN_SECONDS = 1.0  # before a worker that ended is started again
@@ -86,7 +87,7 @@ class Supervisor:
         worker.running = None
         if not worker.told:
             worker.told = True
-            why = "its scheduler has gone" if code == 0 else f"exit code {code}"
+            why = {0: "its scheduler has gone", HUNG: "it did not answer"}.get(code, f"exit code {code}")
             self._tell(f"the worker {worker.name} has ended ({why}); started again, it waits for {self._address}")
 
 
