@@ -377,12 +377,16 @@ class Search:
 def _over_fastest(timed: Mapping[Variant, Mapping[str, Any]]) -> tuple[Variant, dict[Variant, Ratio]]:
     """Return the variant of the least median, and the time of each over its, round by round; there is at least one.
 
-    What slows the machine for a while slows both times of a round, or widens the interval.
+    What slows the machine for a while slows both times of a round, or widens the interval. Where no round timed both,
+    the interval says nothing.
     """
     first = min(timed, key=lambda variant: timed[variant]["median_ms"])
     least = timed[first]["samples_ms"], timed[first]["rounds"]
-    ratios = {v: paired_ratio(time["samples_ms"], time["rounds"], *least) for v, time in timed.items()}
-    return first, {variant: ratio for variant, ratio in ratios.items() if ratio}
+    ratios = {}
+    for variant, time in timed.items():
+        unpaired = Ratio(time["median_ms"] / timed[first]["median_ms"], 0.0, math.inf, False, 1.0, 0)
+        ratios[variant] = paired_ratio(time["samples_ms"], time["rounds"], *least) or unpaired
+    return first, ratios
 
 
 def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
