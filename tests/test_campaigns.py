@@ -126,13 +126,14 @@ def test_what_a_trial_started_is_ended_however_it_ends(tmp_path: Path) -> None:
     assert ended == [1, 1] and not frame.ENDINGS
 
 
-def test_the_table_has_one_row_for_each_campaign(tmp_path: Path) -> None:
+def test_the_table_has_one_row_for_each_campaign_that_was_run_and_keeps_all_of_others(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    page.write_text(f"# Page\n\n{table.HEAD}\n|---|---|---|---|---|---|---|\n\nmore\n")
+    other = [f"| other | {cases} | | | | | |" for cases in (20, 10)]
+    page.write_text("\n".join(["# Page", "", table.HEAD, "|---|---|---|---|---|---|---|", *other, "", "more", ""]))
     for seed in (1, 2):
         table.write(page, COIN, frame.trials(COIN, seed, range(20), tmp_path), seed)
     lines = page.read_text().splitlines()
-    assert lines[4].startswith("| coin | 20 | ") and "| 2 |" in lines[4] and lines[5:] == ["", "more"]
+    assert lines[4].startswith("| coin | 20 | ") and "| 2 |" in lines[4] and lines[5:] == [*other, "", "more"]
 
 
 def test_a_made_formula_has_no_value_where_one_of_its_parts_has_none() -> None:

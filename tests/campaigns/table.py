@@ -31,7 +31,7 @@ def _counts(found: Found) -> str:
 
 
 def write(path: Path, campaign: Campaign, found: Found, seed: int) -> None:
-    """Put the campaign's row into the table of a Markdown file, in the place of its former one."""
+    """Put the campaign's row into the table of a Markdown file, in the place of its former ones; others stay."""
     here = describe()
     where = f"{date.today().isoformat()}, {str(here['commit'])[:7]}{'+' * bool(here['dirty'])}, {here['cpu']}"
     cells = (campaign.name, f"{found.cases:,}", _counts(found), campaign.promise, str(found.fell), str(seed), where)
@@ -39,6 +39,10 @@ def write(path: Path, campaign: Campaign, found: Found, seed: int) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
     at = lines.index(HEAD) + 2
     end = next((i for i in range(at, len(lines)) if not lines[i].startswith("|")), len(lines))
-    rows = {text.split("|")[1].strip(): text for text in lines[at:end]} | {campaign.name: row}
-    lines[at:end] = [rows[name] for name in sorted(rows)]
+    rows = [*(text for text in lines[at:end] if _campaign(text) != campaign.name), row]
+    lines[at:end] = sorted(rows, key=_campaign)
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _campaign(row: str) -> str:
+    return row.split("|")[1].strip()
