@@ -161,3 +161,13 @@ def test_a_single_sample_has_no_interval(tmp_path: Path) -> None:
     assert choices.choices(rows)[0].tied[0] == ("Sturm",)
     explored = charts.explorer(rows)
     assert explored is not None and explored.columns["low"] == [None, 1.0] == explored.columns["high"]
+
+
+@pytest.mark.parametrize("baseline", [True, False])
+def test_a_column_of_speed_ups_is_there_where_the_baseline_is(tmp_path: Path, baseline: bool) -> None:
+    others = ("newton", "ray_march") if baseline else ("newton", "sturm")
+    rows = frame(tmp_path / "run", *(sampled(row(method, 1.0), [1.0] * 8) for method in others))
+    for table in (surface_tables.compact_table(rows), winners.winners_table(rows, ties.leaders(rows))):
+        assert table is not None
+        assert ("speed-\nup" in [column.title for column in table.columns]) is baseline
+        assert ("Speed-up is" in table.caption) is baseline

@@ -69,8 +69,9 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         (Column("ms", wording.number, numeric=True), "median_ms"),
         (Column("±", wording.share, numeric=True), "spread"),
         (Column("Mrays/s", wording.number, numeric=True), "mrays_per_s"),
-        (Column("speed-\nup", wording.factor, numeric=True), "speedup"),
     ]
+    compared = timed and bool(kept["speedup"].notna().any())  # else the baseline is not among them
+    speed += [(Column("speed-\nup", wording.factor, numeric=True), "speedup")] if compared else []
     columns = [
         *([(Column("precision"), "precision")] if several else []),
         (Column("method", stretch=3), "label"),
@@ -91,7 +92,9 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         body.append(tuple(told[name] for _, name in columns))
     cut = f" {len(kept)} of {every} variants: those on the front, and the fastest." if len(kept) < every else ""
     over = (
-        f" Speed-up is over {tables.baseline(kept)}, round by round; – where one of the two is wrong." if timed else ""
+        f" Speed-up is over {tables.baseline(kept)}, round by round; – where one of the two is wrong."
+        if compared
+        else ""
     )
     return Table(
         tuple(column for column, _ in columns),

@@ -25,6 +25,7 @@ TWO_LINES = 12  # a matrix of so many scenes has room for two lines a square
 COLUMNS = 6  # devices and precisions that a page is wide enough for
 Listed = TypeVar("Listed", Matrix, Table)
 PALE = 0.68  # how far the colour of a square is from its method's, towards white
+_SPEEDUP = Column("speed-\nup", wording.factor, numeric=True)
 
 
 def sections(material: Material) -> list[Section]:
@@ -180,7 +181,7 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
         Column("device"),
         Column("fastest variant", stretch=3),
         Column("ms", wording.number, numeric=True),
-        Column("speed-\nup", wording.factor, numeric=True),
+        _SPEEDUP,
         Column("max\nerror", wording.error, numeric=True),
         Column("wrong\nrays", wording.count, numeric=True),
         Column("fastest with no wrong ray", stretch=3),
@@ -190,12 +191,15 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     note = " Where the columns after it name another variant, the fastest buys its speed with wrong answers."
     if all(row[-3] == "the same" for row in body):
         columns, body, note = columns[:-3] + columns[-1:], [row[:-3] + row[-1:] for row in body], ""
+    over, at = f"{tables.speedup(rows)} ", columns.index(_SPEEDUP)
+    if all(wording.absent(row[at]) for row in body):  # the baseline is not among them
+        columns, body, over = columns[:at] + columns[at + 1 :], [row[:at] + row[at + 1 :] for row in body], ""
     note += wording.first_of(len(shown), len(fastest))
     return Table(
         columns,
         body,
         "What wins where.",
-        f"{tables.speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; "
+        f"{over}Max error is the largest |t − t*| in scene units over rays away from silhouettes; "
         "wrong rays are misses, false hits, exhausted rays, wrong roots and invalid answers among them, of the "
         f"{rays_checked(shown)} rays of each scene's check. Not told apart: the "
         "fastest variants of other methods, with no wrong ray, whose times are not told to be longer than that of the "
