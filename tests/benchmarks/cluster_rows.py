@@ -34,6 +34,7 @@ def _ran(folder: Path, config: str, runs: str, *more: str) -> tuple[float, str]:
 
 def main(config: str = "quick") -> None:
     """Run both, compare them, and print how many rows and values were held against each other."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which what a shell runs in the background ignores
     given = str(Path(config).resolve()) if Path(config).exists() else config
     with tempfile.TemporaryDirectory(prefix="firsthit-rows-") as made:
         folder = Path(made, "work")
