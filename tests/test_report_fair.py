@@ -147,7 +147,7 @@ def test_the_first_table_says_whose_times_are_noisy(tmp_path: Path) -> None:
     for made, warnings in ((steady, []), (noisy, ["noisy: the middle half …"])):
         made["time"] |= {"warnings": warnings}
     found = choices.choices(frame(tmp_path / "run", steady, noisy))
-    assert choice.made(found, False).caption.count("Noisy or drifting times") == 1
+    assert choice.made(found, False).caption.count("Times are noisy or drift") == 1
     assert "ratios are rough: Sphere." in choice.made(found, False).caption
 
 

@@ -101,7 +101,7 @@ def _unsteady(found: Sequence[Choice]) -> str:
     if not names:
         return ""
     where = wording.listed(names) if len(names) <= NAMED else f"{len(names)} of {wording.plural(len(found), 'surface')}"
-    return f" Noisy or drifting times, as of a busy machine, with which ratios are rough: {where}."
+    return f" Times are noisy or drift, as on a busy machine, so that ratios are rough: {where}."
 
 
 def _warned(row: Any) -> bool:
