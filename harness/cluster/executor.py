@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from harness.cluster import admission
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from harness.devices.probes import Probes
 
 LOSSES = 3  # workers that may be lost with a step, after which it counts as what ends them
+AHEAD_SECONDS = 0.5  # of samples that are taken with one message: so much may be lost, and a stop waits so long
 TRIES = 10  # to give a step to a worker, of which some may be lost before they have it
 
 
@@ -44,7 +47,9 @@ class ClusterExecutor:
         self._engine, self._name, self._wanted = engine, name, wanted
         self._limits = timeout, share
         self._hold = self._held(place) if place else None
-        self._ready: set[str] = set()
+        self._ready: dict[str, float] = {}  # by key, seconds of the frame's last sample; infinity before the first
+        self._expected: deque[tuple[str, int]] = deque()
+        self._ahead: deque[tuple[str, Timing | CellError]] = deque()  # samples that were taken and not asked for yet
         self._released: list[str] = []
         self._gave_up = False
         self._moves = 0
@@ -78,24 +83,56 @@ class ClusterExecutor:
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         warmed: Warmed = self._ask(device, "warm", key, frame)
-        self._ready.add(key)
+        self._ready[key] = math.inf
         return warmed
 
+    def expect(self, samples: Sequence[tuple[str, int]]) -> None:
+        self._expected = deque(samples)
+        if any(key != expected for (key, _), (expected, _) in zip(self._ahead, samples, strict=False)):
+            self._ahead.clear()
+
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
+        if not self._ahead or self._ahead[0][0] != key:
+            self._ahead = deque(self._samples(device, key, frame, batch))
+        if self._expected and self._expected[0][0] == key:
+            self._expected.popleft()
+        _, timing = self._ahead.popleft()
+        if isinstance(timing, CellError):
+            raise timing
+        return timing
+
+    def _samples(self, device: str, key: str, frame: Frame, batch: int) -> Iterable[tuple[str, Timing | CellError]]:
+        """Take a sample, and those that are expected to follow with the same message; by key, one of them at least."""
         for _ in range(LOSSES + 1):
             if key not in self._ready:
                 self.warm(device, key, frame)
+            wanted = self._wanted_now(key, batch)
             try:
-                timing: Timing = self._ask(device, "sample", key, batch)
-                return timing
+                timings, failed = self._ask(device, "samples", wanted)
             except Cold:  # another worker has taken over, or that of the device was started anew
-                self._ready.discard(key)
+                self._ready.pop(key, None)
+                continue
+            for (one, _), timing in zip(wanted, timings, strict=False):
+                self._ready[one] = timing.wall_ms / 1e3
+            told = [*timings, CellError(*failed)] if failed else timings
+            return [(one, timing) for (one, _), timing in zip(wanted, told, strict=False)]
         raise CellError(CellStatus.CRASHED, f"sample: its frame was lost {LOSSES + 1} times in a row")
+
+    def _wanted_now(self, key: str, batch: int) -> list[tuple[str, int]]:
+        """List a sample and those that are to follow, as far as all take AHEAD_SECONDS, as their last ones did."""
+        wanted, seconds = [(key, batch)], self._ready[key]
+        following = list(self._expected)[1:] if self._expected and self._expected[0][0] == key else []
+        for one in following:
+            seconds += self._ready.get(one[0], math.inf)
+            if not seconds <= AHEAD_SECONDS:
+                break
+            wanted.append(one)
+        return wanted
 
     def release(self, device: str, key: str) -> None:
         del device
         if key in self._ready:  # the next step frees it
-            self._ready.discard(key)
+            del self._ready[key]
             self._released.append(key)
 
     def close(self) -> None:
@@ -136,6 +173,7 @@ class ClusterExecutor:
         self._engine.give_back(self._hold.place)
         self._hold = None
         self._ready.clear()
+        self._ahead.clear()
         self._released.clear()
 
     def _taken(self) -> Hold:

@@ -11,7 +11,7 @@ import re
 import socket
 import threading
 import weakref
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +20,7 @@ from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices import kept_answers
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host import Host, this_host
-from harness.devices.interface import INSTALL, device_named
+from harness.devices.interface import INSTALL, Timing, device_named
 from harness.results import sources
 from harness.running.environment import probed
 from harness.running.fastest import Tried
@@ -94,23 +94,36 @@ class Holder:
 
         The request is the operation, its arguments, of which the first is the device, whether it is a software device,
         and the keys of frames to free first. The answer is ("ok", result), ("cold",) where the frame is not kept ready
-        that is to be timed, or ("error", status, reason) for a CellError.
+        that is to be timed first, or ("error", status, reason) for a CellError.
         """
         operation, (device, *arguments), software, released = pickle.loads(request)
         try:
             with admission.alone(device, whole_machine=software):
                 for key in released:
                     self._executor.release(device, key)
-                if operation == "sample" and not self._executor.holds(arguments[0]):
-                    return pickle.dumps(("cold",))
-                if operation == "sample":
-                    arguments.insert(1, None)  # the frame, which is kept here
+                if operation == "samples":
+                    return pickle.dumps(self._samples(device, *arguments), pickle.HIGHEST_PROTOCOL)
                 result = getattr(self._executor, operation)(device, *arguments)
             return pickle.dumps(("ok", result), pickle.HIGHEST_PROTOCOL)
         except CellError as error:
             return pickle.dumps(("error", error.status, str(error)))
         except FirsthitError as error:
             return pickle.dumps(("error", CellStatus.FAILED, str(error)))
+
+    def _samples(self, device: str, wanted: Sequence[tuple[str, int]]) -> tuple[Any, ...]:
+        """Take samples, by key and batch, up to the first frame that is not kept ready, or that fails.
+
+        The result of the answer is the timings, and the status and the reason of the one that failed, or None.
+        """
+        timings: list[Timing] = []
+        for key, batch in wanted:
+            if not self._executor.holds(key):
+                return ("ok", (timings, None)) if timings else ("cold",)
+            try:
+                timings.append(self._executor.sample(device, key, None, batch))  # type: ignore[arg-type]  # kept here
+            except CellError as error:
+                return "ok", (timings, (error.status, str(error)))
+        return "ok", (timings, None)
 
     def close(self) -> None:
         """End the processes that hold devices."""

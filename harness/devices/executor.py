@@ -11,6 +11,7 @@ from __future__ import annotations
 import subprocess
 import threading
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -131,6 +132,9 @@ class LocalExecutor:
         warmed: Warmed = self._call(device, "warm", key, frame)
         self._warm[key] = device
         return warmed
+
+    def expect(self, samples: Sequence[tuple[str, int]]) -> None:
+        """Do nothing: a sample is taken when it is asked for."""
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
         """Time one repetition: `batch` runs of the frame that is kept under `key`.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from harness.contract import Program
@@ -40,6 +41,9 @@ class Executor(Protocol):
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it under `key`, ready for `sample`."""
+
+    def expect(self, samples: Sequence[tuple[str, int]]) -> None:
+        """Hear which samples are asked for next, by key and batch in this order: several may be taken at once."""
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
         """Time one repetition: `batch` runs of the frame that is kept under `key`; it is warmed again if it is lost."""

@@ -32,7 +32,7 @@ FORMAT = 1
 FLUSH = 30.0  # seconds
 AGAIN = "again.jsonl"
 TRIES = 100  # to open a file whose folder others remove
-Sample = tuple[float, float | None, float]  # ms by the host's clock, by the device's, and seconds that taking it took
+Sample = tuple[float, float | None, float]  # ms by the host's clock, by the device's, and seconds that it ran
 
 
 @dataclass(eq=False)

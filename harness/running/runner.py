@@ -213,6 +213,7 @@ class Runner:
         errors: dict[str, CellError] = {}
         taken: dict[str, Sample] = {}
         since = time.monotonic()
+        self._executor.expect(self._certain(live, round_number))
         try:
             for key in shuffled(list(live), self._config.seed, round_number):
                 self._tell(live[key].planned.cell.slot, None)
@@ -226,6 +227,14 @@ class Runner:
         finally:  # also where Ctrl-C ends it
             self._session.round(round_number, taken)
         return errors
+
+    def _certain(self, live: Mapping[str, _Live], round_number: int) -> list[tuple[str, int]]:
+        """List the samples of this round, and of the next few as far as each cell needs them, by key and batch."""
+        budget = self._config.budget
+        most = max(len(state.samples.wall_ms) for state in live.values())
+        rounds = min(MINIMUM_SAMPLES, max(1, min(budget.rounds, budget.repetitions) - most))
+        orders = (shuffled(list(live), self._config.seed, round_number + ahead) for ahead in range(rounds))
+        return [(key, state.warmed.batch) for key in itertools.chain(*orders) if (state := live[key]).warmed]
 
     def _end(self, live: dict[str, _Live], key: str, error: CellError | None) -> Row:
         """Store the row of a cell that was timed, and free its frame."""
@@ -242,7 +251,6 @@ class Runner:
         Where another machine or process took it, that is a new sitting, before which those that were `taken` are kept.
         """
         assert state.warmed and state.frame
-        start = time.perf_counter()
         batch = state.warmed.batch
         timing = self._executor.sample(state.planned.cell.device, state.planned.key, state.frame, batch)
         if self._executor.moves != self._moves:
@@ -253,7 +261,7 @@ class Runner:
         if not 0.0 < timing.wall_ms < math.inf:
             raise CellError(CellStatus.FAILED, f"the clock told {timing.wall_ms:g} ms for a frame")
         told = timing.device_ms if timing.device_ms and 0.0 < timing.device_ms < math.inf else None
-        spent = time.perf_counter() - start
+        spent = timing.wall_ms / 1e3
         sample = timing.wall_ms / batch, told and told / batch, spent
         state.samples.add(sample, round_number, self._session.sitting)
         state.timing += spent

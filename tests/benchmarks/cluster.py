@@ -50,6 +50,7 @@ def _work(executor: Executor, cells: Sequence[Planned], where: dict[str, Any]) -
         key = cell.cell.together
         executor.check(INFO.name, check)
         executor.warm(INFO.name, key, frame)
+        executor.expect([(key, 1)] * (STEPS - 2))
         for _ in range(STEPS - 2):
             executor.sample(INFO.name, key, frame, 1)
         executor.release(INFO.name, key)
