@@ -72,7 +72,7 @@ def places(site: Site) -> list[Any]:
 def _lead(site: Site) -> Html:
     frame = site.data.frame
     surfaces = wording.plural(len({race.first.page for race in site.cells}), "surface")
-    methods = wording.plural(len({m for race in site.cells for m in race.methods}), "method")
+    methods = wording.plural(len({m for race in site.cells for m in race.entered}), "method")
     devices = wording.plural(len({race.first.on for race in site.cells}), "device")
     machines = wording.plural(frame["processor"].nunique(), "machine")
     runs = wording.plural(len(site.data.parts), "run")
@@ -90,7 +90,7 @@ def _lead(site: Site) -> Html:
 def _filters(site: Site) -> Html:
     """Write the choices by which the script filters; a choice that has one value is left out."""
     rows = [race.first for race in site.cells]
-    methods = {m: site.label(m) for m in sorted({m for race in site.cells for m in race.methods}, key=site.label)}
+    methods = {m: site.label(m) for m in sorted({m for race in site.cells for m in race.entered}, key=site.label)}
     given = (
         ("kind", "Surfaces", kinds(site)),
         ("device", "Device", list(dict.fromkeys(row.on for row in places(site)))),
@@ -123,10 +123,17 @@ def _standings(site: Site, baseline: str) -> Html:
             "cells in which it is the fastest; tied are those in which it is not told apart from the fastest",
         ),
         Head(
-            "within the bound", True, "cells in which a setting of it answers every clear ray rightly within the bound"
+            "within the bound",
+            True,
+            "cells in which a setting of it answers every clear ray rightly within the bound, of those that it could "
+            "be cast in, also where it failed, crashed or ran out of time",
         ),
         Head("median speed-up", True, f"over {baseline}, of its fastest setting within the bound"),
-        Head("wrong rays", True, "of its fastest setting, whatever its errors: what speed risks"),
+        Head(
+            "wrong rays",
+            True,
+            "of its fastest setting, whatever its errors: what speed risks; of that with fewest where none was timed",
+        ),
     )
     lines = []
     for found in standings(site.cells, FIRST):
@@ -135,8 +142,8 @@ def _standings(site: Site, baseline: str) -> Html:
         cells = (site.method(found.method, ""), tag("span", told[0], class_="share", style=share), *told[1:])
         lines.append(Line(cells, f"m-{site.pages[found.method]}"))
     caption = (
-        "How often each method is the fastest of those timed in the same cell, which may be few. A cell is a surface "
-        "on a device, in a precision, from the view and size that most methods were timed at."
+        "How often each method is the fastest of those that were cast in the same cell, which may be few. A cell is a "
+        "surface on a device, in a precision, from the view and size that most methods were timed at."
     )
     names = json.dumps([found.method for found in standings(site.cells, FIRST)])
     return tag(
@@ -234,7 +241,7 @@ def _winner_cell(site: Site, race: Race, level: str) -> list[object]:
     """Write a cell at one level: its winner, what ties with it, and what is faster but wrong."""
     won = race.won[level]
     if won.winner is None:
-        return [tag("span", f"none of {race.size[0]} methods", class_="faint")]
+        return [tag("span", f"none of {len(race.entered)} methods", class_="faint")]
     methods = " ".join(dict.fromkeys(str(row.method) for row in (won.winner, *won.tied)))
     name = tag("span", chip(site.marks[won.winner.method]), row_link(won.winner, ""), class_="won", data_won=methods)
     tied = f"≈ {', '.join(row.label for row in won.tied)}" if won.tied else ""
@@ -256,8 +263,9 @@ def _rules(baseline: str) -> Html:
             "p",
             "The error is the largest |t − t*| over the radius of the scene, of rays that neither graze the surface "
             "nor drown in rounding; a ray counts as wrong where it is a miss, a false hit, given up, a wrong root or "
-            "an impossible answer. A setting with one wrong ray does not win, and a method that was timed alone wins "
-            f"nothing. Speed-ups are over {baseline}.",
+            "an impossible answer. A setting with one wrong ray does not win. A method that fails, crashes or runs out "
+            "of time in a cell does not keep the bound there; a method that no other was held against wins nothing. A "
+            f"surface on which no method could be timed has no cell. Speed-ups are over {baseline}.",
         ),
         tag(
             "p",

@@ -43,14 +43,14 @@ def index(site: Site) -> list[Html]:
 def body(site: Site, name: str) -> list[Html]:
     """Write a method's page."""
     told = site.data.methods.get(name, {})
-    own = [race for race in site.cells if name in race.methods]
+    own = [race for race in site.cells if name in race.entered]
     made: list[Html | None] = [
         tag(
             "p", chip(site.marks[name]), told.get("title") or f"The runs here do not say what {name} is.", class_="lead"
         ),
         tag("p", told["summary"]) if told.get("summary") else None,
         tag("p", tag("b", "Source: "), told["source"]) if told.get("source") else None,
-        _here(site, name, own) if own else tag("p", "No cell of the leaderboard has a timed row of it."),
+        _here(site, name, own) if own else tag("p", "It was cast in no cell of the leaderboard."),
         _claims(site, name, told),
         *_doc(told),
         _parameters(told.get("parameters", [])),
@@ -90,7 +90,7 @@ def _plot(site: Site, name: str, own: Sequence[Race]) -> Html:
     column = max(places(site), key=lambda c: sum((r.first.on, r.first.precision) == (c.on, c.precision) for r in own))
     points = []
     for race in own:
-        if (race.first.on, race.first.precision) != (column.on, column.precision):
+        if name not in race.methods or (race.first.on, race.first.precision) != (column.on, column.precision):
             continue
         row = _best(race, name)
         if wording.absent(row.relative_error_max) or wording.absent(row.wrong_rays):
@@ -117,9 +117,9 @@ def _plot(site: Site, name: str, own: Sequence[Race]) -> Html:
 
 
 def _best(race: Race, name: str) -> Any:
-    """Return the method's fastest row within the first bound, else its fastest."""
+    """Return the method's fastest row within the first bound, else its fastest; where none was timed, what failed."""
     own = race.won[FIRST].usable.get(name)
-    return own if own is not None else race.methods[name]
+    return own if own is not None else race.entered[name]
 
 
 def _cells_table(site: Site, name: str, own: Sequence[Race]) -> Html:
@@ -136,8 +136,8 @@ def _cells_table(site: Site, name: str, own: Sequence[Race]) -> Html:
         )
         told = (
             site.place(row),
-            row_link(row, UP),
-            wording.number(row.median_ms),
+            row_link(row, UP) if name in race.methods else row.label,
+            wording.number(row.median_ms) if name in race.methods else row.status,
             wording.factor(row.speedup),
             wording.error(row.relative_error_max),
             wording.count(row.wrong_rays),

@@ -10,6 +10,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness.contract import CellStatus
 from reports.analysis import derive, surface_names, ties, viewstats
 from reports.analysis.choices import ERRORS
 
@@ -39,13 +40,15 @@ class Won:
 class Race:
     """Hold the timed rows of one scene on one device in one precision, of one run, fastest first; there is one or more.
 
-    `each` has the rows as named tuples. `won` has the answer at each of LEVELS, by name. `older` are races of the same
-    scene that do not count.
+    `each` has the rows as named tuples. `won` has the answer at each of LEVELS, by name. `untimed` has for each method
+    that entered and of which no variant was timed, since all failed, crashed or ran out of time, the row that stands
+    for it. `older` are races of the same scene that do not count.
     """
 
     rows: pd.DataFrame
     each: Sequence[Any]
     won: Mapping[str, Won]
+    untimed: Mapping[str, Any]
     older: tuple[Race, ...] = ()
 
     @property
@@ -60,6 +63,11 @@ class Race:
         for row in self.each:
             found.setdefault(str(row.method), row)
         return found
+
+    @cached_property
+    def entered(self) -> dict[str, Any]:
+        """Return a row of each method that could be cast there, by the method: those timed, then the others."""
+        return {**self.methods, **self.untimed}
 
     @cached_property
     def counted(self) -> dict[str, Any]:
@@ -79,12 +87,15 @@ def races(frame: pd.DataFrame) -> list[Race]:
     device that counts which has most methods; of several, that with most variants and then that of the newest run. Of a
     large set of views only the first view is raced, and of a surface in several forms only the printed one.
     """
-    rows = derive.contenders(surface_names.printed_alone(viewstats.one_view_of_each(frame)))
+    raced = surface_names.printed_alone(viewstats.one_view_of_each(frame))
+    rows, untimed = derive.contenders(raced), _untimed(raced)
     grouped: dict[tuple[Any, ...], list[Race]] = {}
     order = {key: i for i, key in enumerate(zip(frame["comparison"], frame["on"], frame["precision"], strict=True))}
-    for _, own in rows.groupby(derive.GROUP, sort=False):
+    for at, own in rows.groupby(derive.GROUP, sort=False):
         each = list(own.itertuples())
-        race = Race(own, each, {name: _won(own, each, bound) for name, bound in LEVELS})
+        won = {name: _won(own, each, bound) for name, bound in LEVELS}
+        there = {row.method for row in each}
+        race = Race(own, each, won, {m: row for m, row in untimed.get(at, {}).items() if m not in there})
         grouped.setdefault((race.first.scene_id, race.first.on, race.first.precision), []).append(race)
     counted = []
     for own_races in grouped.values():
@@ -92,6 +103,20 @@ def races(frame: pd.DataFrame) -> list[Race]:
         *older, best = newest_last
         counted.append(replace(best, older=tuple(reversed(older))))
     return sorted(counted, key=lambda race: order[(race.first.comparison, race.first.on, race.first.precision)])
+
+
+def _untimed(frame: pd.DataFrame) -> dict[Any, dict[str, Any]]:
+    """Return for each of derive.GROUP, by method, the row that stands for what did not end well there.
+
+    It is the judged row with fewest wrong rays, or the first where none was judged. Skipped rows could not be cast.
+    """
+    ended = frame["status"].isin([CellStatus.OK, CellStatus.SKIPPED])
+    rows = frame[frame["answers"].astype(bool) & ~ended]
+    fewest = rows["wrong_rays"].where(derive.is_judged(rows)).astype("float64").sort_values(kind="stable")
+    found: dict[Any, dict[str, Any]] = {}
+    for row in rows.loc[fewest.index].itertuples():
+        found.setdefault((row.comparison, row.device, row.precision), {}).setdefault(str(row.method), row)
+    return found
 
 
 def cells(every: Sequence[Race]) -> list[Race]:
@@ -150,9 +175,11 @@ class Standing:
     """Count what a method does over cells, at one bound.
 
     won: cells in which it is the fastest, alone; `tied` are those in which it is not told apart from the fastest
-    usable: cells in which a variant of it answers every clear ray rightly within the bound, of the `raced` ones
+    usable: cells in which a variant of it answers every clear ray rightly within the bound, of the `raced` ones, in
+        which it was timed or failed, crashed or ran out of time
     speedup: the median of its fastest such variants' speed-ups over the baseline; None where none is known
-    wrong, rays: clear rays that its fastest variants, right or not, answer wrongly, of those checked
+    wrong, rays: clear rays that its fastest variants, right or not, answer wrongly, of those checked; where none was
+        timed, those of the judged variant with fewest
     """
 
     method: str
@@ -170,7 +197,7 @@ def standings(of: Sequence[Race], level: str) -> list[Standing]:
     at = [name for name, _ in LEVELS].index(level)
     entered = [race.counted for race in of]
     found = []
-    for method in dict.fromkeys(m for race in of for m in race.methods):
+    for method in dict.fromkeys(m for race in of for m in race.entered):
         entries = [entry[method] for entry in entered if method in entry]
         speedups = sorted(e["v"][at] for e in entries if e["v"][at] is not None and e["v"][at] > 0)
         found.append(
@@ -200,14 +227,14 @@ def _counted(race: Race) -> dict[str, Any]:
     """Return what the leaderboard counts of a cell, for the site's script too, by method:
 
     w: for each level 2 where the method wins alone, 1 where it wins and is not told apart from others, or is one of
-        these, else 0; a method that races alone wins nothing
+        these, else 0; a method that no other entered against wins nothing
     v: for each level the speed-up of its fastest usable variant, 0 where that is not known; null without such a variant
-    x, n: wrong rays of its fastest variant, and how many were checked
+    x, n: wrong rays of its fastest variant or, where none was timed, of that with fewest, and how many were checked
     """
     told: dict[str, Any] = {}
-    for method, row in race.methods.items():
+    against = len(race.entered) > 1
+    for method, row in race.entered.items():
         wins, speedups = [], []
-        against = len(race.methods) > 1
         for name, _ in LEVELS:
             won = race.won[name]
             first = won.winner is not None and won.winner.method == method

@@ -94,6 +94,7 @@ def _race(site: Site, race: Race, opened: bool) -> Html:
         cells.error_plot(site, race.rows, f"{row.surface_title} on {row.on}"),
         _gallery(site, race),
         rows_table(site, f"Every setting timed, fastest first: {what}. {_baseline(site, race)}", race.rows),
+        _untimed(site, race),
         _source(site, race),
     ]
     title = f"{row.on}, {row.precision}"
@@ -102,6 +103,12 @@ def _race(site: Site, race: Race, opened: bool) -> Html:
             "section", tag("h2", title, id=_id(race)), tag("p", f"{what[0].upper()}{what[1:]}.", class_="faint"), *parts
         )
     return folded(tag("span", f"{title}: {what}", id=_id(race)), *parts)
+
+
+def _untimed(site: Site, race: Race) -> Html | None:
+    """Name the methods of which no setting could be timed, and how they ended; None where there are none."""
+    told = [f"{site.label(method)} ({row.status})" for method, row in race.untimed.items()]
+    return tag("p", f"No setting could be timed of {wording.listed(told)}.", class_="faint") if told else None
 
 
 def _baseline(site: Site, race: Race) -> str:

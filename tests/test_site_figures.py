@@ -1,0 +1,61 @@
+"""What the figures of a site count: which methods entered a cell, and what medians and shares are of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reports.analysis import derive
+from reports.site import board, gather, standings
+from tests.synthetic_run import SURFACES, cell, sampled, tiny_run
+
+NEWTON, MARCH, ODD = "newton[EPSILON=1e-06]", "ray_march", "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]"
+KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")
+
+
+@pytest.fixture(autouse=True)
+def _no_claims(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Judge no claims of the papers, which takes longer than all the rest."""
+    monkeypatch.setattr(gather, "_verdicts", lambda *_: [])
+
+
+def timed(
+    variant: str, ms: float, surface: str = "torus", device: str = "opencl:intel", misses: int = 0, error: float = 5e-4
+) -> dict[str, Any]:
+    """Make a cell with this time, so many misses and this largest error."""
+    made = sampled(cell(variant, surface, device, "float32"), [ms] * 20)
+    made["accuracy"] |= dict.fromkeys(KINDS, 0) | {"misses": misses, "error": {"max": error}}
+    made["accuracy"]["relative_error"] = {"max": error}
+    return made | {"arrays": None}
+
+
+def ended(made: dict[str, Any], status: str, reason: str, judged: bool = False) -> dict[str, Any]:
+    """Take a cell's time, and its answers too unless they were `judged`."""
+    return made | {"time": None, "status": status, "reason": reason} | ({} if judged else {"accuracy": None})
+
+
+def counted(folder: Path, *cells: dict[str, Any]) -> dict[str, standings.Standing]:
+    """Return the standings of a run of these cells at any error, by method."""
+    races = standings.races(gather.gather([tiny_run(folder, *cells)]).frame)
+    return {found.method: found for found in standings.standings(standings.cells(races), "any")}
+
+
+def test_a_method_that_fails_in_a_cell_is_counted_there_and_a_skipped_one_is_not(tmp_path):
+    rows = [timed(NEWTON, 1.0, surface) for surface in SURFACES] + [timed(NEWTON, 1.0, device="opencl:pocl")]
+    rows += [timed(MARCH, 2.0, "torus"), ended(timed(MARCH, 2.0, "sphere"), "failed", "no")]
+    rows += [ended(timed(MARCH, 2.0, "barth"), "timeout", "still running")]
+    found = counted(tmp_path / "few", *rows, ended(timed(MARCH, 2.0, device="opencl:pocl"), "skipped", "no extension"))
+    assert (found["ray_march"].usable, found["ray_march"].raced) == (1, 3)
+    assert found["newton"].won == 3, "where the other is skipped, nothing was held against it"
+    found = counted(tmp_path / "all", *rows, ended(timed(MARCH, 2.0, device="opencl:pocl"), "crashed", "died"))
+    assert (found["ray_march"].raced, found["newton"].won) == (4, 4)
+
+
+def test_wrong_rays_of_a_method_too_wrong_to_be_timed_are_counted(tmp_path):
+    reason = f"{derive.TOO_WRONG}900 of its judged rays"
+    rows = [timed(NEWTON, 1.0), ended(timed(MARCH, 2.0, misses=900), "failed", reason, judged=True)]
+    found = counted(tmp_path / "run", *rows)["ray_march"]
+    assert (found.wrong, found.usable, found.raced) == (900, 0, 1)
+    assert board.said(found)[1] == "0 of 1"
