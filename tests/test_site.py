@@ -195,7 +195,11 @@ def test_standings_count_cells_and_not_rows(site):
     line = re.search(r'<tr id="m-newton".*?</tr>', (site / "index.html").read_text(encoding="utf-8"))[0]
     cells = re.findall(r"<td.*?>(.*?)</td>", line)
     assert re.sub("<.*?>", "", cells[0]) == f"{len(newton)}"
-    assert cells[1:] == [f"{len(newton)} of {len(newton)}", "10.0×", f"{5 * len(newton)} of {2304 * len(newton):,}"]
+    assert cells[1:] == [
+        f"{len(newton)} of {len(newton)}",
+        f"10.0× in {len(newton)}",
+        f"{5 * len(newton)} of {2304 * len(newton):,}",
+    ]
 
 
 def test_devices_of_several_machines_are_told_apart(pages):

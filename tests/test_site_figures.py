@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +38,13 @@ def ended(made: dict[str, Any], status: str, reason: str, judged: bool = False) 
 
 
 def counted(folder: Path, *cells: dict[str, Any]) -> dict[str, standings.Standing]:
-    """Return the standings of a run of these cells at any error, by method."""
-    races = standings.races(gather.gather([tiny_run(folder, *cells)]).frame)
+    """Return the standings of a run of these cells."""
+    return standing(tiny_run(folder, *cells))
+
+
+def standing(*folders: Path) -> dict[str, standings.Standing]:
+    """Return the standings of runs at any error, by method."""
+    races = standings.races(gather.gather(folders).frame)
     return {found.method: found for found in standings.standings(standings.cells(races), "any")}
 
 
@@ -59,3 +65,16 @@ def test_wrong_rays_of_a_method_too_wrong_to_be_timed_are_counted(tmp_path):
     found = counted(tmp_path / "run", *rows)["ray_march"]
     assert (found.wrong, found.usable, found.raced) == (900, 0, 1)
     assert board.said(found)[1] == "0 of 1"
+
+
+def test_a_median_speedup_is_over_one_baseline_and_says_of_how_many_cells(tmp_path):
+    rows = [timed(variant, ms, s) for s in SURFACES for variant, ms in ((NEWTON, 1.0), (ODD, 5.0))]
+    rows += [timed(MARCH, 20.0, "sphere"), timed(MARCH, 30.0, "torus"), timed(MARCH, 99.0, "barth", misses=1)]
+    tiny_run(tmp_path / "first", *rows)
+    others = [timed(v, ms, device="opencl:pocl") for v, ms in ((NEWTON, 1.0), (MARCH, 40.0), (ODD, 5.0))]
+    tiny_run(tmp_path / "other", *others)
+    plan = json.loads((tmp_path / "other" / "plan.json").read_text()) | {"name": "other", "baseline": "_odd#"}
+    (tmp_path / "other" / "plan.json").write_text(json.dumps(plan))
+    newton = standing(tmp_path / "first", tmp_path / "other")["newton"]
+    assert (newton.speedup, newton.compared, newton.usable) == (30.0, 3, 4), "of 20, 30 and 40, and not 5"
+    assert board.said(newton)[2] == "30.0× in 3"

@@ -23,20 +23,19 @@ def body(site: Site) -> list[Html]:
     """Write the page's content."""
     if not site.cells:
         return [tag("p", "No run here has a timed row with answers, so that there is nothing to rank.")]
-    baseline = site.baseline(site.data.frame)
     return [
         _lead(site),
         _filters(site),
         tag(
             "div",
             tag("p", "", id="said", role="status", class_="faint"),
-            _standings(site, baseline),
+            _standings(site),
             _classes(site),
             _winners(site),
             id="board",
             data_error=FIRST,
         ),
-        _rules(baseline),
+        _rules(site),
     ]
 
 
@@ -113,7 +112,7 @@ def _choice(name: str, title: str, options: Sequence[Html]) -> Html:
     return tag("label", title, " ", tag("select", *options, name=name, autocomplete="off"))
 
 
-def _standings(site: Site, baseline: str) -> Html:
+def _standings(site: Site) -> Html:
     """Write how often each method wins, over all cells."""
     heads = (
         Head("method"),
@@ -128,7 +127,12 @@ def _standings(site: Site, baseline: str) -> Html:
             "cells in which a setting of it answers every clear ray rightly within the bound, of those that it could "
             "be cast in, also where it failed, crashed or ran out of time",
         ),
-        Head("median speed-up", True, f"over {baseline}, of its fastest setting within the bound"),
+        Head(
+            "median speed-up",
+            True,
+            f"over {site.overall}, of its fastest setting within the bound, in so many cells: those in which both "
+            "answer every clear ray rightly. Medians of different cells are not comparable",
+        ),
         Head(
             "wrong rays",
             True,
@@ -157,7 +161,8 @@ def said(found: Standing) -> tuple[str, str, str, str]:
     """Write a standing. The site's script writes them alike."""
     tied = f" + {found.tied} tied" if found.tied else ""
     wrong = f"{found.wrong:,} of {found.rays:,}" if found.wrong else "0"
-    return f"{found.won}{tied}", f"{found.usable} of {found.raced}", wording.factor(found.speedup), wrong
+    speedup = f"{wording.factor(found.speedup)} in {found.compared}" if found.compared else wording.NONE
+    return f"{found.won}{tied}", f"{found.usable} of {found.raced}", speedup, wrong
 
 
 def _at_levels(cells: Iterable[Sequence[object]]) -> Html:
@@ -181,7 +186,10 @@ def _classes(site: Site) -> Html:
             cells.append(_at_levels(_class_cell(site, own, name) for name, _ in LEVELS) if own else "")
         lines.append(Line(cells, kind="kind"))
     heads = [Head("surfaces"), *(Head(site.place(column)) for column in columns)]
-    caption = "Which methods win how often, by class of surface: alone, or not told apart from the fastest."
+    caption = (
+        "Which methods win how often, by class of surface: alone, or not told apart from the fastest; then the median "
+        f"speed-up over {site.overall}, and in how many cells it is known."
+    )
     return tag("section", tag("h2", "By class of surface"), table(caption, heads, lines, "classes"))
 
 
@@ -192,7 +200,7 @@ def _class_cell(site: Site, own: Sequence[Race], level: str) -> list[object]:
         return [tag("span", f"none within the bound, of {len(own)}", class_="faint")]
     told = []
     for standing in sorted(found, key=lambda s: (-s.won - s.tied, -s.won))[:NAMED]:
-        over = "" if standing.speedup is None else f", {wording.factor(standing.speedup)}"
+        over = f", {said(standing)[2]}" if standing.compared else ""
         count = f" {standing.won + standing.tied} of {len(own)}{over}"
         told.append(tag("div", chip(site.marks[standing.method]), tag("b", site.label(standing.method)), count))
     more = len(found) - len(told)
@@ -253,7 +261,7 @@ def _winner_cell(site: Site, race: Race, level: str) -> list[object]:
     ]
 
 
-def _rules(baseline: str) -> Html:
+def _rules(site: Site) -> Html:
     return folded(
         "How this is counted",
         tag(
@@ -265,7 +273,14 @@ def _rules(baseline: str) -> Html:
             "nor drown in rounding; a ray counts as wrong where it is a miss, a false hit, given up, a wrong root or "
             "an impossible answer. A setting with one wrong ray does not win. A method that fails, crashes or runs out "
             "of time in a cell does not keep the bound there; a method that no other was held against wins nothing. A "
-            f"surface on which no method could be timed has no cell. Speed-ups are over {baseline}.",
+            "surface on which no method could be timed has no cell.",
+        ),
+        tag(
+            "p",
+            f"A median speed-up is over {site.overall} and of the cells whose number stands behind it: those in which "
+            "a setting keeps the bound, and the baseline was timed in turns with it and answers every clear ray "
+            "rightly. Two methods' medians may be of different cells; the winners tell who is faster in one cell. A "
+            f"speed-up beside a winner is over the baseline of its own run: {site.baseline(site.data.frame)}.",
         ),
         tag(
             "p",

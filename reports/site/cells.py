@@ -19,7 +19,7 @@ from reports.site.gather import Gathered, Part
 from reports.site.markup import Frame, Head, Html, Line, code, join, link, table, tag
 from reports.site.pictures import Pair, anchor
 from reports.site.scatter import Point, chip, scatter
-from reports.site.standings import LEVELS, Race, Won
+from reports.site.standings import LEVELS, Race, Won, baseline_of
 
 BOUNDS = {  # how people write the levels
     name: "any error" if math.isinf(bound) else f"error ≤ {wording.power_of_ten(round(math.log10(bound)))}"
@@ -59,8 +59,16 @@ class Site:
 
     def baseline(self, rows: pd.DataFrame) -> str:
         """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
-        named = (str(name) for name in dict.fromkeys(rows["baseline"]))
-        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else self._variants.get(n, n) for n in named))
+        return " or ".join(dict.fromkeys(self._named(str(name)) for name in dict.fromkeys(rows["baseline"])))
+
+    @cached_property
+    def overall(self) -> str:
+        """Name the method or variant that the medians of speed-ups are over, in all runs."""
+        return self._named(baseline_of(self.data.frame))
+
+    def _named(self, name: str) -> str:
+        """Return how people write a method or a variant."""
+        return self.label(name) if name in self.pages else self._variants.get(name, name)
 
     @cached_property
     def _variants(self) -> dict[str, str]:

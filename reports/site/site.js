@@ -19,16 +19,18 @@ function median(values) {
 
 function counted(cells, method, at) { // as reports/site/standings.py counts
   const own = cells.map(cell => cell.m[method]).filter(Boolean), sum = (of) => own.reduce((n, e) => n + of(e), 0);
+  const speedups = own.map(e => e.v[at]).filter(v => v);
   return {
     raced: own.length, won: sum(e => e.w[at] === 2), tied: sum(e => e.w[at] === 1), usable: sum(e => e.v[at] !== null),
-    speedup: median(own.map(e => e.v[at]).filter(v => v)), wrong: sum(e => e.x), rays: sum(e => e.n),
+    speedup: median(speedups), compared: speedups.length, wrong: sum(e => e.x), rays: sum(e => e.n),
   };
 }
 
 function write(line, found, cells) {
   const tied = found.tied ? ` + ${found.tied} tied` : "", share = line.querySelector(".share");
   const texts = [
-    null, `${found.usable} of ${found.raced}`, found.speedup === null ? NONE : `${number(found.speedup)}×`,
+    null, `${found.usable} of ${found.raced}`,
+    found.compared ? `${number(found.speedup)}× in ${found.compared}` : NONE,
     found.wrong ? `${found.wrong.toLocaleString("en-US")} of ${found.rays.toLocaleString("en-US")}` : "0",
   ];
   share.textContent = `${found.won}${tied}`;

@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports.analysis import derive, surface_names, ties, viewstats
+from reports.analysis import derive, rounds, surface_names, ties, viewstats
 from reports.analysis.choices import ERRORS
 
 LEVELS: tuple[tuple[str, float], ...] = (  # how a bound is written in a page's address, and the bound
@@ -40,9 +40,10 @@ class Won:
 class Race:
     """Hold the timed rows of one scene on one device in one precision, of one run, fastest first; there is one or more.
 
-    `each` has the rows as named tuples. `won` has the answer at each of LEVELS, by name. `untimed` has for each method
-    that entered and of which no variant was timed, since all failed, crashed or ran out of time, the row that stands
-    for it. `older` are races of the same scene that do not count.
+    `each` has the rows as named tuples, with their speed-up over the site's baseline as `over_baseline`. `won` has the
+    answer at each of LEVELS, by name. `untimed` has for each method that entered and of which no variant was timed,
+    since all failed, crashed or ran out of time, the row that stands for it. `older` are races of the same scene that
+    do not count.
     """
 
     rows: pd.DataFrame
@@ -88,7 +89,7 @@ def races(frame: pd.DataFrame) -> list[Race]:
     large set of views only the first view is raced, and of a surface in several forms only the printed one.
     """
     raced = surface_names.printed_alone(viewstats.one_view_of_each(frame))
-    rows, untimed = derive.contenders(raced), _untimed(raced)
+    rows, untimed = _over(baseline_of(frame), derive.contenders(raced)), _untimed(raced)
     grouped: dict[tuple[Any, ...], list[Race]] = {}
     order = {key: i for i, key in enumerate(zip(frame["comparison"], frame["on"], frame["precision"], strict=True))}
     for at, own in rows.groupby(derive.GROUP, sort=False):
@@ -103,6 +104,19 @@ def races(frame: pd.DataFrame) -> list[Race]:
         *older, best = newest_last
         counted.append(replace(best, older=tuple(reversed(older))))
     return sorted(counted, key=lambda race: order[(race.first.comparison, race.first.on, race.first.precision)])
+
+
+def baseline_of(frame: pd.DataFrame) -> str:
+    """Name the method or variant that standings are over: the baseline of most rows, the first of equals."""
+    return str(frame["baseline"].value_counts(sort=False).idxmax())
+
+
+def _over(baseline: str, rows: pd.DataFrame) -> pd.DataFrame:
+    """Add `over_baseline`, the speed-up over `baseline`: the row's own, or anew where its run has another baseline."""
+    own = rows["baseline"] == baseline
+    others = rows[~own].assign(baseline=baseline)
+    anew = rounds.over_first(others, derive.baseline_rows(others), derive.GROUP).where(derive.all_right(others))
+    return rows.assign(over_baseline=rows["speedup"].where(own, anew.reindex(rows.index)))
 
 
 def _untimed(frame: pd.DataFrame) -> dict[Any, dict[str, Any]]:
@@ -177,7 +191,8 @@ class Standing:
     won: cells in which it is the fastest, alone; `tied` are those in which it is not told apart from the fastest
     usable: cells in which a variant of it answers every clear ray rightly within the bound, of the `raced` ones, in
         which it was timed or failed, crashed or ran out of time
-    speedup: the median of its fastest such variants' speed-ups over the baseline; None where none is known
+    speedup: the median of its fastest such variants' speed-ups over `baseline_of`, over the `compared` cells: those in
+        which the baseline, too, answers every clear ray rightly; None where there are none
     wrong, rays: clear rays that its fastest variants, right or not, answer wrongly, of those checked; where none was
         timed, those of the judged variant with fewest
     """
@@ -188,6 +203,7 @@ class Standing:
     usable: int
     raced: int
     speedup: float | None
+    compared: int
     wrong: int
     rays: int
 
@@ -208,6 +224,7 @@ def standings(of: Sequence[Race], level: str) -> list[Standing]:
                 sum(e["v"][at] is not None for e in entries),
                 len(entries),
                 _median(speedups),
+                len(speedups),
                 sum(e["x"] for e in entries),
                 sum(e["n"] for e in entries),
             )
@@ -228,7 +245,8 @@ def _counted(race: Race) -> dict[str, Any]:
 
     w: for each level 2 where the method wins alone, 1 where it wins and is not told apart from others, or is one of
         these, else 0; a method that no other entered against wins nothing
-    v: for each level the speed-up of its fastest usable variant, 0 where that is not known; null without such a variant
+    v: for each level the speed-up of its fastest usable variant over the site's baseline, 0 where that is not known;
+        null without such a variant
     x, n: wrong rays of its fastest variant or, where none was timed, of that with fewest, and how many were checked
     """
     told: dict[str, Any] = {}
@@ -241,7 +259,7 @@ def _counted(race: Race) -> dict[str, Any]:
             beside = any(other.method == method for other in won.tied)
             wins.append(against * (2 if first and not won.tied else 1 if first or beside else 0))
             own = won.usable.get(method)
-            speedups.append(None if own is None else _rounded(own.speedup))
+            speedups.append(None if own is None else _rounded(own.over_baseline))
         told[method] = {"w": wins, "v": speedups, "x": int(_zero(row.wrong_rays)), "n": int(_zero(row.accuracy_rays))}
     return told
 
