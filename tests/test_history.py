@@ -102,6 +102,29 @@ def test_devices_and_arithmetics_are_lines_of_their_own():
     assert [len(span.points) for span in graphs(again)[0].spans] == [1, 1], "the same commit counts once"
 
 
+def test_devices_without_a_fingerprint_are_told_apart_by_their_facts():
+    for untold in ({}, {"float32": {}, "host": {}}, {"host": {"exp": "b"}}):
+        devices = [DEVICE | {"arithmetic": untold, "processor": name} for name in "PQ"]
+        mixed = [kept(i, {SLOT: row(misses=5 * (i % 2))}, device=devices[i % 2]) for i in range(4)]
+        assert stepped(mixed) == [], untold
+
+
+def test_meshes_by_other_packages_are_lines_of_their_own():
+    mixed = [kept(i, {SLOT: row(misses=5 * (i % 2), mesher=f"m {i % 2}")}) for i in range(4)]
+    assert stepped(mixed) == []
+    assert len({graph.device for graph in graphs(mixed)}) == 2
+    assert stepped([*mixed, kept(4, {SLOT: row(misses=9, mesher="m 0")})]) == [("0", "9", True, 4)]
+
+
+def test_evaluations_of_a_quadtree_are_compared_where_it_begins_at_the_same_level():
+    values = [(100.0, 0, 3), (700.0, 0, 5), (100.0, 4, 3), (900.0, 4, 5)]
+    mixed = [kept(i, {SLOT: row(evaluations_mean=e, misses=m, device_level=n)}) for i, (e, m, n) in enumerate(values)]
+    assert stepped(mixed, figure="evaluations_mean") == [("700", "900", True, 3)]
+    assert stepped(mixed) == [("0", "4", True, 2)], "other figures do not depend on the level"
+    devices = {graph.device for graph in graphs(mixed, figure="evaluations_mean")}
+    assert devices == {"opencl:one, from level 3", "opencl:one, from level 5"}
+
+
 def test_dirty_trees_and_other_branches_are_drawn_apart_and_make_no_step():
     dirty = [*runs_of(0, 0, 0), kept(1, {SLOT: row(misses=7)}, dirty=True)]
     assert stepped(dirty) == []

@@ -10,6 +10,7 @@ from typing import Any
 from harness.contract import PRECISIONS, CellStatus, Precision
 from harness.devices.fingerprint import unlike
 from harness.gate.baseline import ARITHMETIC, Baseline, Entry
+from harness.results.commits import SIZED
 
 OTHER_SCENE = "surface, view, rays or family are others than those blessed under this name"
 NAMED_PARTS = 6  # of arithmetic that a reason names
@@ -67,8 +68,8 @@ def held_against(slot: str, row: Entry, facts: Mapping[str, Any], before: Baseli
     levels = row.get("device_level"), entry.get("device_level")
     if levels[0] == levels[1]:
         return Held(key, entry, rule, differs)
-    sized = f"its quadtree begins at level {levels[0]}, and began at {levels[1]}: evaluations_mean is not held"
-    return Held(key, entry, rule, "; ".join(filter(None, (differs, sized))), ("evaluations_mean",))
+    sized = f"its quadtree begins at level {levels[0]}, and began at {levels[1]}: {', '.join(SIZED)} is not held"
+    return Held(key, entry, rule, "; ".join(filter(None, (differs, sized))), SIZED)
 
 
 def distance(slot: str, facts: Mapping[str, Any], blessed: Mapping[str, Any], key: str) -> tuple[Any, ...]:

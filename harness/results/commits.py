@@ -24,6 +24,7 @@ from harness.results.writing import write_atomically
 
 FORMAT = 1
 ALIKE = ("title", "driver", "compiler", "processor")  # facts that stand for a device's arithmetic where it is not known
+SIZED = ("evaluations_mean",)  # not comparable where a quadtree begins at another level (Entry.device_level)
 _HASH = re.compile("[0-9a-f]{7,64}")
 
 
@@ -150,10 +151,9 @@ def same_arithmetic(device: Mapping[str, Any], slot: str) -> str:
     """Return a text that two devices share where a row of this slot has the same arithmetic on both.
 
     It follows from what a device's fingerprint holds for the row's precision, for the host and, of stage raster, for
-    the rasteriser. Where no fingerprint is kept, the facts ALIKE stand for it.
+    the rasteriser. Where one of these is not kept, the facts ALIKE stand for it.
     """
-    arithmetic, words = device.get("arithmetic"), slot.split()
-    if not isinstance(arithmetic, Mapping):
-        return digest([device.get(name) for name in ALIKE])
+    arithmetic, words = device.get("arithmetic") or {}, slot.split()
     parts = ["float64" if "float64" in words else "float32", "host", *(["raster"] if "raster" in words else [])]
-    return digest([arithmetic.get(part) for part in parts])
+    told = [arithmetic.get(part) for part in parts]
+    return digest(told if all(told) else [*told, *(device.get(name) for name in ALIKE)])

@@ -1,7 +1,8 @@
 """Make of kept runs a graph of each gated figure of each row over commits, and find the steps in it.
 
 Gated figures are the same to the last digit in every run of the same programs, so a step needs no statistics: it is a
-change beyond the gate's own tolerance between two consecutive kept commits on the same arithmetic.
+change beyond the gate's own tolerance between two consecutive kept commits on the same arithmetic, with meshes by the
+same packages.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from harness.contract import CellStatus
-from harness.results.commits import ALIKE, Commit, Kept, same_arithmetic
+from harness.contract import CellStatus, digest
+from harness.results.commits import ALIKE, SIZED, Commit, Kept, same_arithmetic
 
 STATUS = "status"  # drawn as a figure of its own where it changes
 STATUSES = tuple(str(status) for status in CellStatus)
@@ -154,16 +155,34 @@ def graphs(kept: Sequence[Kept], line: Sequence[str] | None, rules: Mapping[str,
     rows: dict[tuple[str, str, str], list[tuple[Place, Kept]]] = {}
     for one in kept:
         for slot in one.rows:
-            key = (slot, str(one.device["name"]), same_arithmetic(one.device, slot))
+            key = (slot, str(one.device["name"]), _alike(one, slot))
             rows.setdefault(key, []).append((placed[one.commit], one))
     several = Counter((slot, device) for slot, device, _ in rows)
     made: list[Graph] = []
-    for (slot, device, arithmetic), runs in sorted(rows.items()):
-        label = f"{device} {arithmetic[:6]}" if several[slot, device] > 1 else device
+    for (slot, device, alike), runs in sorted(rows.items()):
+        label = f"{device} {alike[:6]}" if several[slot, device] > 1 else device
         runs.sort(key=lambda run: run[0].at)
-        made += [graph for name in (STATUS, *rules) if (graph := _graph(name, slot, label, runs, rules.get(name)))]
+        for name in (STATUS, *rules):
+            parts = _by_level(slot, label, runs) if name in SIZED else {label: runs}
+            made += [graph for told, own in parts.items() if (graph := _graph(name, slot, told, own, rules.get(name)))]
     order = {name: i for i, name in enumerate((STATUS, *rules))}
     return sorted(made, key=lambda graph: (order[graph.figure], graph.slot, graph.device))
+
+
+def _alike(one: Kept, slot: str) -> str:
+    """Return a text that runs share whose figures of a row can be compared: of its arithmetic and of its mesher."""
+    arithmetic, mesher = same_arithmetic(one.device, slot), one.rows[slot].get("mesher")
+    return digest([arithmetic, mesher]) if mesher else arithmetic
+
+
+def _by_level(slot: str, label: str, runs: Sequence[tuple[Place, Kept]]) -> dict[str, list[tuple[Place, Kept]]]:
+    """Part the runs of one row by the level at which a quadtree begins on the device; return each part by its label."""
+    found: dict[Any, list[tuple[Place, Kept]]] = {}
+    for place, one in runs:
+        found.setdefault(one.rows[slot].get("device_level"), []).append((place, one))
+    several = len(found) > 1
+    said = {level: "at a level not told" if level is None else f"from level {level}" for level in found}
+    return {f"{label}, {said[level]}" if several else label: own for level, own in found.items()}
 
 
 def devices(kept: Iterable[Kept]) -> list[str]:
