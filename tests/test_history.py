@@ -56,6 +56,28 @@ def test_consecutive_commits_are_compared_and_not_the_first_with_the_last():
     assert stepped(runs_of(0, 0, 2, 2, 1)) == [("0", "2", True, 2), ("2", "1", False, 4)]
 
 
+def crept(*values, figure="error_max"):
+    """What figures crept: before, now, whether worse, and the numbers of the two commits."""
+    drawn = graphs(runs_of(*values, figure=figure), figure=figure)
+    numbers = [[int(c.hash[:2], 16) - 1 for c in (s.since, s.commit)] for g in drawn for s in g.crept]
+    found = [step for graph in drawn for step in graph.crept]
+    return [(s.before, s.now, s.worse, *at) for s, at in zip(found, numbers, strict=True)]
+
+
+def test_what_creeps_is_told_as_such():
+    drifting = [1e-6 * 1.04**i for i in range(20)]
+    assert crept(*drifting) == [("1e-06", "2.10685e-06", True, 0, 19)]
+    assert crept(*reversed(drifting)) == [("2.10685e-06", "1e-06", False, 0, 19)]
+    back = [*reversed(drifting[:10]), *drifting[1:]]
+    assert crept(*back) == [("1e-06", "2.10685e-06", True, 9, 28)], "since the best"
+    assert crept(*drifting, 1e-6) == [("1e-06", "2.10685e-06", True, 0, 19)], "the last before a step"
+    assert crept(1e-6, 2e-6, 2.04e-6) == [], "all of it is one step"
+    assert crept(*([1e-6, 1.04e-6] * 5)) == []
+    assert crept(*drifting[:5], None, *drifting[5:]) == [("1e-06", "2.10685e-06", True, 0, 20)]
+    found = series.steps(graphs(runs_of(*drifting, figure="error_max"), figure="error_max"))
+    assert [step.crept for step in found] == [True]
+
+
 def test_a_commit_that_has_no_row_is_passed_over_and_what_came_after_it_is_found():
     all_runs = runs_of(0, 0, 2)
     all_runs[1] = kept(1, {})

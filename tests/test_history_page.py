@@ -131,6 +131,16 @@ def test_a_history_of_many_changes_lists_some_and_says_how_many_more(tmp_path):
     assert len(text) < 1_200_000
 
 
+def test_a_figure_that_crept_is_listed_with_the_commit_since_which_it_did(tmp_path):
+    for growth, steps in ((1.04, 1), (1.0005, 0)):
+        all_runs = [kept(i, {SLOT: row(error_max=1e-6 * growth**i)}) for i in range(20)]
+        assert len(draw.build(all_runs, None, draw.Told("t", RULES, {}), tmp_path)) == steps
+        text = (tmp_path / "index.html").read_text(encoding="utf-8")
+        assert ("No figure has changed beyond its tolerance" in text) == (steps == 0)
+        assert (f"crept in smaller changes since {commit(0).hash[:8]}" in text) == (steps == 1)
+        assert text.count('<a href="#s0" class="mark worse">') == steps
+
+
 @pytest.fixture(scope="module")
 def tab(drawn, tmp_path_factory):
     with browser.opened(tmp_path_factory.mktemp("profile")) as opened:

@@ -62,7 +62,7 @@ def _history(options: argparse.Namespace) -> int | Answer:
         return Answer(gates.history(output / "index.html", len(kept), steps))
     listed = [
         (
-            "worse" if step.worse else "better",
+            f"{'crept ' if step.crept else ''}{'worse' if step.worse else 'better'}",
             step.figure,
             step.slot,
             step.device,

@@ -36,7 +36,7 @@ def write(graphs: Sequence[Graph], commits: int, heading: str, below: Sequence[s
     with its value. `commits` are on the line; `heading` stands above, and the lines `below` it. Raises OSError where
     the file cannot be written.
     """
-    changing = sorted((graph for graph in graphs if not graph.flat), key=lambda graph: -len(graph.steps))
+    changing = sorted((graph for graph in graphs if not graph.flat), key=lambda graph: -len(graph.told))
     flat = [graph for graph in graphs if graph.flat]
     columns = COLUMNS if len(changing) > 2 or len(flat) > LISTED else 2
     longest = max((len(f"{graph.slot} · {graph.device}") for graph in flat), default=0)
@@ -88,7 +88,7 @@ class _Panels:
 
         self._frames.append([(x0, y0 + PLOT[1]), (x0, y0), (x0 + PLOT[0], y0)])
         self._trace(graph, place)
-        for step in graph.steps:
+        for step in graph.told:
             self._steps[step.worse].append((x0 + PLOT[0] * across(step.at, self._commits), y0))
         for position, said in labels(graph, scale):
             y = y0 + PLOT[1] * (0.06 + 0.88 * position)

@@ -57,7 +57,7 @@ def page(history: History, pictures: Mapping[str, str]) -> str:
     ids = {id(graph): f"g{i}" for i, graph in enumerate(changed)}
     numbers = {id(step): i for i, step in enumerate(history.steps[:STEPS])}
     most = _most([len(graph.spans) for graph in changed])
-    of_step = {id(step): ids[id(graph)] for graph in changed for step in graph.steps}
+    of_step = {id(step): ids[id(graph)] for graph in changed for step in graph.told}
     counts = {name: sum(step.figure == name for step in history.steps) for name in history.figures}
     sections = [_figure_section(history, name, ids, numbers, most, pictures[name]) for name in history.figures]
     wide = WIDTH / max(history.commits, 1)
@@ -105,7 +105,8 @@ def _steps(history: History, of_step: Mapping[int, str]) -> str:
     items = [_step(step, i, of_step[id(step)]) for i, step in enumerate(history.steps[:STEPS])]
     if not items:
         few = history.commits < 2
-        text = "Steps need two kept commits on one device." if few else "No figure has changed beyond its tolerance."
+        none = "No figure has changed beyond its tolerance, at once or in several changes."
+        text = "Steps need two kept commits on one device." if few else none
         return f'<h2 id="steps">Steps</h2><p>{text}</p>'
     many = len(history.steps) - len(items)
     left_out = f"<p>{many} smaller ones are marked in the graphs alone.</p>" if many else ""
@@ -126,7 +127,8 @@ def _steps(history: History, of_step: Mapping[int, str]) -> str:
 def _step(step: Step, number: int, graph: str) -> str:
     """Write one step as an item of the list."""
     notes = "".join(f"; {escaped(note)}" for note in step.notes)
-    told = f"{step.commit.date[:10]} {step.commit.subject}; last kept before: {_commit(step.since)}; on {step.device}"
+    since = "crept in smaller changes since" if step.crept else "last kept before:"
+    told = f"{step.commit.date[:10]} {step.commit.subject}; {since} {_commit(step.since)}; on {step.device}"
     return (
         f'<li id="s{number}"><a href="#{graph}">{step.figure} of {escaped(step.slot)}</a>: '
         f'<span class="{_kind(step)}">{escaped(step.before)} → {escaped(step.now)}</span> at commit '
@@ -141,7 +143,7 @@ def _figure_section(
     own = [graph for graph in history.graphs if graph.figure == name]
     changed = sorted(
         (graph for graph in own if not graph.flat),
-        key=lambda graph: min((numbers.get(id(step), STEPS) for step in graph.steps), default=STEPS + 1),
+        key=lambda graph: min((numbers.get(id(step), STEPS) for step in graph.told), default=STEPS + 1),
     )
     flat = [graph for graph in own if graph.flat]
     cards = "".join(_card(history, graph, ids[id(graph)], numbers, most) for graph in changed)
@@ -216,7 +218,7 @@ def _drawing(history: History, graph: Graph, spans: Sequence[Span], numbers: Map
         f'<text x="{LEFT:.0f}" y="82">{first}</text><text x="{LEFT + WIDTH:.0f}" y="82" text-anchor="end">{last}</text>'
     )
     log = '<text x="2" y="82">log</text>' if scale.logarithmic else ""
-    counts = f"{wording.plural(len(graph.spans), 'value')}, {wording.plural(len(graph.steps), 'step')}"
+    counts = f"{wording.plural(len(graph.spans), 'value')}, {wording.plural(len(graph.told), 'step')}"
     said = f"{graph.figure} of {graph.slot} on {graph.device}: {counts}"
     return (
         f'<svg viewBox="0 0 300 84" role="group" aria-label="{escaped(said)}">'
@@ -259,10 +261,10 @@ def _ring(graph: Graph, point: Point, x: float, y: float) -> str:
 
 def _marks(graph: Graph, numbers: Mapping[int, int], x: Callable[[float], float]) -> str:
     """Draw the steps. Those that the list holds link to their place in it; of others a short line is drawn."""
-    listed = [step for step in graph.steps if id(step) in numbers]
+    listed = [step for step in graph.told if id(step) in numbers]
     drawn = "".join(_mark(step, numbers[id(step)], x(step.at)) for step in listed)
     for kind in ("worse", "better"):
-        others = (step for step in graph.steps if id(step) not in numbers and _kind(step) == kind)
+        others = (step for step in graph.told if id(step) not in numbers and _kind(step) == kind)
         if path := "".join(f"M{x(step.at):.1f} 1v7" for step in others):
             drawn += f'<path class="axis {kind}" d="{path}"/>'
     return drawn
@@ -271,7 +273,8 @@ def _marks(graph: Graph, numbers: Mapping[int, int], x: Callable[[float], float]
 def _mark(step: Step, number: int, x: float) -> str:
     """Draw a step as a dashed line and a triangle that link to its place in the list."""
     triangle = f"M{x:.1f} 1l4 6h-8z" if step.worse else f"M{x - 4:.1f} 1h8l-4 6z"  # up for the worse
-    title = f"step: {step.before} → {step.now} at {_commit(step.commit)} {step.commit.subject}"
+    what, at = "crept" if step.crept else "step", f"{_commit(step.commit)} {step.commit.subject}"
+    title = f"{what}: {step.before} → {step.now} at {at}"
     return (
         f'<a href="#s{number}" class="mark {_kind(step)}"><title>{escaped(title)}</title>'
         f'<line x1="{x:.1f}" x2="{x:.1f}" y1="8" y2="{TOP + HEIGHT + 4:.0f}"/><path d="{triangle}"/></a>'

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -65,7 +65,10 @@ class Point:
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """Hold a change beyond the tolerance: its figure, row and device, and the two commits between which it happened."""
+    """Hold a change beyond the tolerance: its figure, row and device, and the two commits between which it happened.
+
+    crept: it happened in changes of which none is beyond the tolerance, over more than two kept commits
+    """
 
     figure: str
     slot: str
@@ -78,6 +81,7 @@ class Step:
     worse: bool
     size: float
     notes: tuple[str, ...] = ()
+    crept: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +103,7 @@ class Span:
 class Graph:
     """Hold one figure of one row on one device over commits, its points drawn apart, and its steps.
 
+    steps: from one kept commit to the next; `crept` are those in several changes
     slack: by how much the largest value may change and make no step
     """
 
@@ -108,7 +113,13 @@ class Graph:
     spans: tuple[Span, ...]
     apart: tuple[Point, ...]
     steps: tuple[Step, ...]
+    crept: tuple[Step, ...]
     slack: float
+
+    @property
+    def told(self) -> tuple[Step, ...]:
+        """Return all steps, those too that the figure crept."""
+        return self.steps + self.crept
 
     @property
     def flat(self) -> bool:
@@ -192,7 +203,7 @@ def devices(kept: Iterable[Kept]) -> list[str]:
 
 def steps(drawn: Iterable[Graph]) -> list[Step]:
     """Return the steps of all graphs, the worst first, improvements last."""
-    found = [step for graph in drawn for step in graph.steps]
+    found = [step for graph in drawn for step in graph.told]
     return sorted(found, key=lambda step: (not step.worse, -step.size, step.at))
 
 
@@ -221,7 +232,8 @@ def _graph(figure: str, slot: str, device: str, runs: Sequence[tuple[Place, Kept
     largest = max(map(abs, values))
     slack = abs(rule.allowed(largest) - largest) if rule else 0.0
     steps = tuple(_steps(figure, slot, device, on, rule))
-    return Graph(figure, slot, device, tuple(_spans(on)), apart, steps, slack)
+    crept = tuple(_crept(figure, slot, device, on, rule, {step.at for step in steps if step.now != GONE}))
+    return Graph(figure, slot, device, tuple(_spans(on)), apart, steps, crept, slack)
 
 
 def _spans(points: Sequence[Point]) -> Iterator[Span]:
@@ -262,6 +274,34 @@ def _steps(figure: str, slot: str, device: str, points: Sequence[Point], rule: R
             yield Step(figure, slot, device, before, now, since, place.commit, place.at, worse, size, notes)
         if point.value is not None:
             last, gone = point, False
+
+
+def _crept(
+    figure: str, slot: str, device: str, points: Sequence[Point], rule: Rule | None, stepped: Collection[float]
+) -> Iterator[Step]:
+    """Find what changed beyond the tolerance in changes that are not.
+
+    The last point before each step, before another scene and of all is held against the best since the last step, and
+    against the first. `stepped` has the places of the steps.
+    """
+    stretches: list[list[Point]] = [[]]
+    for point in points if rule else ():
+        if point.place.at in stepped or (stretches[-1] and stretches[-1][-1].scene != point.scene):
+            stretches.append([])
+        if point.value is not None:
+            stretches[-1].append(point)
+    for stretch in stretches:
+        if not stretch or rule is None:
+            continue
+        last, sign = stretch[-1], 1 if rule.better == "lower" else -1
+        best = min(stretch, key=lambda point: sign * (point.value or 0))
+        for since in (best, stretch[0]):
+            assert since.value is not None and last.value is not None
+            if found := _found(since.value, last.value, rule):
+                before, now = _told(since.value, last.value, False)
+                commits, notes = (since.place.commit, last.place.commit), _notes(since, last)
+                yield Step(figure, slot, device, before, now, *commits, last.place.at, *found, notes, crept=True)
+                break
 
 
 def _found(before: Value, now: Value, rule: Rule | None) -> tuple[bool, float] | None:

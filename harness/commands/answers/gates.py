@@ -165,6 +165,7 @@ class StepFacts:
     subject: the first line of that commit's message
     date: when it was committed (ISO 8601)
     notes: what may explain the step beside the commit
+    crept: whether it got there in several changes, of which none is beyond the tolerance
     """
 
     figure: str
@@ -178,6 +179,7 @@ class StepFacts:
     subject: str
     date: str
     notes: Sequence[str]
+    crept: bool
 
 
 @dataclass(frozen=True)
@@ -212,4 +214,5 @@ def _step(step: Step) -> StepFacts:
         subject=step.commit.subject,
         date=step.commit.date,
         notes=step.notes,
+        crept=step.crept,
     )
