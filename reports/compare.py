@@ -14,6 +14,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus, FirsthitError
+from harness.results.figures import GATED
 from harness.results.writing import replacing_together
 from reports import wording
 from reports.analysis import derive, rounds
@@ -25,6 +26,7 @@ from reports.reading.run import Plan, Run
 from reports.reading.tuples import tuples
 from reports.rendering import document, html
 
+ERROR = GATED["error_max"]
 WORST = 10  # changes that the first page lists
 _PLACE = ["scene", "variant", "precision"]
 
@@ -120,25 +122,28 @@ def report(a: Run, b: Run) -> Document:
     """Make the report on what changed from A to B. Raises FirsthitError as `paired` does."""
     both, by = paired(a, b)
     timed = both[both["ratio"].notna()]
-    faster = timed[(timed["ratio_high"] < 1.0) & timed["alike"] & ~(_error_change(timed) > 0)]
+    quicker = timed[(timed["ratio_high"] < 1.0) & timed["alike"] & ~(_error_change(timed) > 0)]
+    faster = quicker[~_less_exact(quicker)]
     slower = timed[timed["ratio_low"] > 1.0]
     worse, better = both[_error_change(both) > 0], both[_error_change(both) < 0]
     verdict = (
         f"Of {wording.plural(len(both), 'cell')} in both runs, B is clearly slower in {len(slower)} and clearly faster "
         f"in {len(faster)} of {len(timed)} timed ones; it answers more rays wrongly in {len(worse)} and fewer in "
-        f"{len(better)}."
+        f"{len(better)}.{_bought(len(quicker) - len(faster))}{_ended(both)}"
     )
     caution = (
         "Clearly: the 95 % intervals of both medians, of 6 samples or more, do not meet, and what is faster answers no "
-        "more rays wrongly. The two runs were not timed in turns, so that a "
-        "machine that was busier during one of them changes every ratio alike; the ratio's median over all cells is "
-        f"{wording.factor(timed['ratio'].median())}.{_not_compared(a, b, both, by)}"
+        f"more rays wrongly, and its largest error is at most {ERROR.relative:.0%} larger. The two runs were not timed "
+        "in turns, so that a machine that was busier during one of them changes every ratio alike; the ratio's median "
+        f"over all cells is {wording.factor(timed['ratio'].median())}.{_not_compared(a, b, both, by)}"
     )
     blocks: list[Block] = [Text(verdict, strong=True), Text(caution), _runs(a.plan, b.plan)]
     order = timed.assign(size_of_change=(timed["ratio"] - 1.0).abs()).sort_values("size_of_change", ascending=False)
     shown = order[(order["ratio_low"] > 1.0) | (order["ratio_high"] < 1.0)]
     sections = [
-        Section("Speed", (_speed(shown.sort_values("ratio", ascending=False), by, "Cells clearly slower or faster."),)),
+        Section(
+            "Speed", (_speed(shown.sort_values("ratio", ascending=False), by, "Cells whose times clearly differ."),)
+        ),
         Section("Answers", tuple(_answers(both, by))),
         Section("In one run only", tuple(_alone(a, b, by))),
         Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),)),
@@ -162,6 +167,31 @@ def _not_compared(a: Run, b: Run, both: pd.DataFrame, by: list[str]) -> str:
     told += [f"the times of {wording.plural(clocks, 'cell')}, which are by different clocks"] if clocks else []
     told += [f"the answers of {wording.plural(rays, 'cell')}, which were checked on other rays"] if rays else []
     return f" Not compared: {wording.listed(told)}." if told else ""
+
+
+def _less_exact(both: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether B's largest error is larger than A's, by more than the gate lets it grow.
+
+    Returns bool with the index of `both`; False where one has no error.
+    """
+    before, now = (both[f"error_max_{side}"].astype("float64") for side in "ab")
+    return now > before + ERROR.absolute + ERROR.relative * before
+
+
+def _bought(cells: int) -> str:
+    """Say, with a space before it, in how many cells B is faster and less exact; "" for none."""
+    return f" In {wording.plural(cells, 'other cell')} B is faster, but its largest error is larger." if cells else ""
+
+
+def _ended(both: pd.DataFrame) -> str:
+    """Say, with a space before it, how many cells ended well in one run and not in the other, and how; "" for none."""
+    told = []
+    for first, second in (("a", "b"), ("b", "a")):
+        own = both[(both[f"status_{first}"] == CellStatus.OK) & (both[f"status_{second}"] != CellStatus.OK)]
+        ways = [f"{count} {status}" for status, count in own[f"status_{second}"].value_counts(sort=False).items()]
+        told += [f" Of those that ended well in {first.upper()}, {wording.plural(len(own), 'cell')} did not in "
+                 f"{second.upper()}: {wording.listed(ways)}."] if ways else []  # fmt: skip
+    return "".join(told)
 
 
 def _error_change(both: pd.DataFrame) -> pd.Series:

@@ -100,6 +100,32 @@ def test_what_was_asked_otherwise_or_timed_by_another_clock_is_not_compared(tmp_
     assert "the answers of 1 cell, which were checked on other rays" in told
 
 
+def test_what_is_faster_with_a_larger_error_is_not_clearly_faster(tmp_path: Path) -> None:
+    first = cell("ray_march", "torus", "opencl:intel", "float32")
+    a = load.load(tiny_run(tmp_path / "a", first))
+    for factor, faster in ((1.04, 1), (1000.0, 0)):
+        fast = retime(copy.deepcopy(first), first["time"]["median_ms"] / 4)
+        error = fast["accuracy"]["error"]
+        error |= {name: factor * value for name, value in error.items()}
+        told = printed(compare.report(a, load.load(tiny_run(tmp_path / f"by {factor}", fast))).summary.blocks)
+        assert f"clearly faster in {faster} of 1 timed ones" in told
+        assert ("In 1 other cell B is faster, but its largest error is larger." in told) == (not faster)
+
+
+def test_cells_that_end_otherwise_are_counted(tmp_path: Path) -> None:
+    cells = [cell(name, "torus", "opencl:intel", "float32") for name in ("ray_march", "newton[EPSILON=0.001]", "null")]
+    ends = [
+        one | {"time": None, "accuracy": None, "arrays": None, "status": status, "reason": "no"}
+        for one, status in zip(cells, ("crashed", "timeout", "ok"), strict=True)
+    ]
+    a, b = load.load(tiny_run(tmp_path / "a", *cells)), load.load(tiny_run(tmp_path / "b", *ends[:2], cells[2]))
+    told = printed(compare.report(a, b).summary.blocks)
+    assert "Of those that ended well in A, 2 cells did not in B: 1 crashed and 1 timeout." in told
+    back = printed(compare.report(b, a).summary.blocks)
+    assert "Of those that ended well in B, 2 cells did not in A: 1 crashed and 1 timeout." in back
+    assert "ended well" not in printed(compare.report(a, a).summary.blocks)
+
+
 def test_a_comparison_names_the_files_that_it_cannot_read(tmp_path: Path) -> None:
     cells = [cell(name, "torus", "opencl:intel", "float32") for name in ("ray_march", "newton[EPSILON=0.001]")]
     first, second = tiny_run(tmp_path / "a", *cells), tiny_run(tmp_path / "b", *cells)
