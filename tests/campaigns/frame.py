@@ -12,6 +12,7 @@ import os
 import random
 import shutil
 import signal
+import sys
 import tempfile
 import threading
 import time
@@ -231,11 +232,8 @@ def run(campaign: Campaign, seed: int, count: int, folder: Path, jobs: int, tell
 def _quiet() -> None:
     """Leave Ctrl-C and SIGHUP to the campaign, which ends its processes by SIGTERM; so does its own end, by any signal.
 
-    Their trials then end what they started.
+    A trial that is under way then ends what it started.
     """
-
-    def end(*_: Any) -> None:
-        raise SystemExit
 
     def follow() -> None:
         if campaign := parent_process():
@@ -244,12 +242,34 @@ def _quiet() -> None:
 
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, lambda *_: None)  # what is ignored, the commands that trials start would ignore too
-    signal.signal(signal.SIGTERM, end)
+    signal.signal(signal.SIGTERM, _leave)
     threading.Thread(target=follow, daemon=True).start()
 
 
+def _leave(*_: Any) -> None:
+    """End this process at once: between blocks it has nothing to end, and the pool would print what is raised then."""
+    os._exit(128 + signal.SIGTERM)
+
+
+def _end_trial(*_: Any) -> None:
+    raise SystemExit
+
+
+def _dropped(error: Any) -> None:
+    """End the trial a little later where Python drops what _end_trial raises, as in a callback while it imports."""
+    if error.exc_type is SystemExit:
+        threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGTERM)).start()
+    else:
+        sys.__unraisablehook__(error)
+
+
 def _block(name: str, seed: int, numbers: range, shared: Path) -> Found:
+    sys.unraisablehook = _dropped
+    signal.signal(signal.SIGTERM, _end_trial)
     try:
         return trials(campaign_named(name), seed, numbers, shared)
     except SystemExit:  # the pool would take it for the block's result, and wait for another one
-        os._exit(128 + signal.SIGTERM)
+        _leave()
+        raise
+    finally:
+        signal.signal(signal.SIGTERM, _leave)
