@@ -8,8 +8,11 @@ from typing import Any
 
 import pytest
 
+from harness.merging import merge
+from harness.results.store import Store
 from reports.analysis import derive
 from reports.site import board, gather, standings
+from tests import machine_runs
 from tests.synthetic_run import SURFACES, cell, sampled, tiny_run
 
 NEWTON, MARCH, ODD = "newton[EPSILON=1e-06]", "ray_march", "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]"
@@ -78,3 +81,20 @@ def test_a_median_speedup_is_over_one_baseline_and_says_of_how_many_cells(tmp_pa
     newton = standing(tmp_path / "first", tmp_path / "other")["newton"]
     assert (newton.speedup, newton.compared, newton.usable) == (30.0, 3, 4), "of 20, 30 and 40, and not 5"
     assert board.said(newton)[2] == "30.0× in 3"
+
+
+def test_rows_of_a_merged_run_are_of_the_machine_that_made_them(tmp_path):
+    made = []
+    for name, driver in (("lab1", "1"), ("lab2", "2")):
+        rows = machine_runs.usual(machine=name, processor=f"Processor {name}", driver=driver)
+        made.append(machine_runs.write(tmp_path / name, rows, machine=name))
+        told = machine_runs.plan_of(made[-1])
+        told["environment"] |= {"cpu": f"Processor {name}"}
+        Store(made[-1]).write_plan({k: v for k, v in told.items() if k not in ("checksum", "format")})
+    merge.merge(made, tmp_path / "all", "firsthit merge …")
+    found = gather.gather([tmp_path / "all"])
+    pairs = set(zip(found.frame["device"], found.frame["processor"], strict=True))
+    assert pairs == {(f"opencl:intel@{name}", f"Processor {name}") for name in ("lab1", "lab2")}
+    assert found.parts[0].machine == "Processor lab1 and Processor lab2"
+    with_one = gather.gather([tmp_path / "all", tmp_path / "lab2"])
+    assert with_one.frame["processor"].nunique() == 2, "a run of one of them adds no machine"

@@ -38,7 +38,7 @@ class Part:
     id: str  # its page is runs/ID.html
     plan: Plan
     folder: Path
-    machine: str
+    machine: str  # those of all its devices
     rows: pd.DataFrame  # all rows of views, with the site's columns
     families: int  # ladders of hard rays
     studies: tuple[str, ...]
@@ -133,11 +133,14 @@ def _parts(loaded: Iterable[tuple[Run, pd.DataFrame]]) -> tuple[Part, ...]:
             plan = load.plan_of(folder)
             found.setdefault(folder.resolve(), (name, plan, run, frame[frame["run"] == name]))
     taken: set[str] = set()
-    cpus = [_machine(plan) for _, plan, _, _ in found.values()]
-    machines = dict(zip(cpus, told_apart(cpus), strict=True))
+    plans = [plan for _, plan, _, _ in found.values()]
+    systems = dict(_machine(plan) for plan in reversed(plans))
+    each = [_machines(plan, systems) for plan in plans]
+    named = list(dict.fromkeys(machine for own in each for machine in own.values()))
+    machines = dict(zip(named, told_apart(named), strict=True))
     parts = []
-    for folder, (name, plan, run, frame) in found.items():
-        machine = machines[_machine(plan)]
+    for (folder, (name, plan, run, frame)), of_devices in zip(found.items(), each, strict=True):
+        told_of = {device: machines[machine] for device, machine in of_devices.items()}
         within = f"{name}/" if run.plan.include else ""
         told = tuple(
             f"{u.file.removeprefix(within)}: {u.problem}"
@@ -149,32 +152,48 @@ def _parts(loaded: Iterable[tuple[Run, pd.DataFrame]]) -> tuple[Part, ...]:
         store = Store(folder)
         missing = len(plan.slots.keys() - set(store.keys()))
         made = slug(plan.name, taken)
-        forged = ~_own_keys(frame)
+        forged = ~_own_keys(frame, plan)
         told += tuple(
             f"{store.place(row.key).relative_to(folder).as_posix()}: its key is not that of its contents ({row.slot})"
             for row in frame[forged].itertuples()
         )
-        rows = _rows(frame[~forged], made, machine, plan)
+        rows = _rows(frame[~forged], made, told_of, plan)
+        there = [told for device, told in told_of.items() if device] or [told_of[""]]
+        machine = wording.listed(list(dict.fromkeys(there)))
         parts.append(Part(made, plan, folder, machine, rows, ladders, own, missing, told))
     return tuple(parts)
 
 
-def _own_keys(frame: pd.DataFrame) -> pd.Series:
+def _own_keys(frame: pd.DataFrame, plan: Plan) -> pd.Series:
     """Tell for each row whether its key is the hash of its slot and of what decides it.
+
+    The slot is the plan's, since that of a row of a merged run tells the device with its machine.
 
     Returns bool with the index of `frame`.
     """
     own = [
-        isinstance(row.identity, str) and digest(row.slot, json.loads(row.identity)) == row.key
+        isinstance(row.identity, str) and digest(plan.slots[row.key], json.loads(row.identity)) == row.key
         for row in frame.itertuples()
     ]
     return pd.Series(own, frame.index, dtype=bool)
 
 
-def _machine(plan: Plan) -> tuple[str, ...]:
-    """Return what tells the machine of a run, the shortest name first."""
+def _machine(plan: Plan) -> tuple[str, str]:
+    """Return what tells the machine that a plan is of, the shortest name first: its processor and its system."""
     told = plan.environment
     return str(told.get("cpu") or "unknown processor"), str(told.get("platform") or "unknown system")
+
+
+def _machines(plan: Plan, systems: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+    """Return by the name of each device what tells its machine, as `_machine` does; "" stands for any other device.
+
+    A merged run states the environment of the first run that went into it, and the processor with each device. Another
+    processor's system is that of `systems`, which has those of other runs by their processors.
+    """
+    own = _machine(plan)
+    processors = {str(device.get("name")): str(device.get("processor") or own[0]) for device in plan.devices}
+    others = {name: (cpu, systems.get(cpu, "unknown system")) for name, cpu in processors.items() if cpu != own[0]}
+    return {"": own, **dict.fromkeys(processors, own), **others}
 
 
 def told_apart(names: Sequence[tuple[str, ...]]) -> list[str]:
@@ -190,8 +209,11 @@ def told_apart(names: Sequence[tuple[str, ...]]) -> list[str]:
     return made
 
 
-def _rows(frame: pd.DataFrame, run: str, machine: str, plan: Plan) -> pd.DataFrame:
-    """Add the site's columns to the rows of one run; its comparisons are told apart from those of other runs."""
+def _rows(frame: pd.DataFrame, run: str, machines: Mapping[str, str], plan: Plan) -> pd.DataFrame:
+    """Add the site's columns to the rows of one run; its comparisons are told apart from those of other runs.
+
+    `machines` names the machine of each device, as `_machines` does.
+    """
     drivers = {str(device.get("name")): str(device.get("driver") or "") for device in plan.devices}
     titles = {str(device.get("name")): str(device.get("title") or "") for device in plan.devices}
     prefix = f"{plan.name}: "
@@ -201,7 +223,7 @@ def _rows(frame: pd.DataFrame, run: str, machine: str, plan: Plan) -> pd.DataFra
         comparison=[f"{run}: {text}" for text in plain],
         run=run,
         at=run,
-        processor=machine,
+        processor=frame["device"].map(machines).fillna(machines[""]),
         driver=frame["device"].map(drivers),
         hardware=frame["device"].map(titles),
         created=plan.created,
