@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 from harness.merging import merge
 from harness.results.store import Store
 from reports.analysis import derive
-from reports.site import board, gather, standings
+from reports.site import board, build, gather, standings
 from tests import machine_runs
 from tests.synthetic_run import SURFACES, cell, sampled, tiny_run
 
@@ -98,3 +99,20 @@ def test_rows_of_a_merged_run_are_of_the_machine_that_made_them(tmp_path):
     assert found.parts[0].machine == "Processor lab1 and Processor lab2"
     with_one = gather.gather([tmp_path / "all", tmp_path / "lab2"])
     assert with_one.frame["processor"].nunique() == 2, "a run of one of them adds no machine"
+
+
+def test_unsteady_times_are_told(tmp_path):
+    steady, noisy = timed(MARCH, 20.0), sampled(timed(NEWTON, 1.0), [0.5, 1.5] * 10)
+    tiny_run(tmp_path / "run", steady, noisy)
+    assert noisy["time"]["warnings"] and not steady["time"]["warnings"]
+    build.build([tmp_path / "run"], tmp_path / "site")
+    index, surface, method, steady_one = (
+        (tmp_path / "site" / f"{page}.html").read_text(encoding="utf-8")
+        for page in ("index", "surfaces/torus", "methods/newton", "methods/ray-march")
+    )
+    assert "At error ≤ 10⁻³ the times of 1 of 1 winners are noisy or drift" in index
+    assert index.count("1.00 ms (noisy), ") == 2, "at two bounds, of which the third has no winner"
+    for page in (surface, method):
+        assert re.search(r'<span title="noisy: the middle half[^>]*>1.00 \(noisy\)<', page)
+        assert "20.0 (" not in page
+    assert "noisy" not in steady_one

@@ -9,7 +9,7 @@ from typing import Any
 
 from reports import wording
 from reports.analysis import ties
-from reports.site.cells import BOUNDS, Site, risk, row_link, speed
+from reports.site.cells import BOUNDS, Site, risk, row_link, speed, unsteady
 from reports.site.gather import DEGREES, HIGHER, NO_POLYNOMIAL, SCENES
 from reports.site.markup import Head, Html, Line, folded, join, link, table, tag
 from reports.site.scatter import chip
@@ -25,6 +25,7 @@ def body(site: Site) -> list[Html]:
         return [tag("p", "No run here has a timed row with answers, so that there is nothing to rank.")]
     return [
         _lead(site),
+        *filter(None, [_noise(site)]),
         _filters(site),
         tag(
             "div",
@@ -83,6 +84,20 @@ def _lead(site: Site) -> Html:
         link("runs.html", f"{runs} up to {newest}"),
         ". Every answer was held against a certified first hit before it was timed.",
         class_="lead",
+    )
+
+
+def _noise(site: Site) -> Html | None:
+    """Say in how many cells the winner's times are not steady; None where all are."""
+    winners = [won for race in site.cells if (won := race.won[FIRST].winner) is not None]
+    noisy = sum(bool(unsteady(won)) for won in winners)
+    if not noisy:
+        return None
+    return tag(
+        "p",
+        f"At {BOUNDS[FIRST]} the times of {noisy} of {len(winners)} winners are noisy or drift, as on a busy machine, "
+        "so that their speed-ups are rough. Such times are marked.",
+        class_="faint",
     )
 
 

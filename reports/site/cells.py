@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -90,10 +91,27 @@ def row_link(row: Any, up: str, text: object = None) -> Html:
     return link(f"{up}surfaces/{row.page}.html#{anchor(row)}", row.label if text is None else text)
 
 
+def unsteady(row: Any) -> list[str]:
+    """Return what is unsteady about a row's times, a sentence each, which begins with a word for it and a colon."""
+    return [] if wording.absent(row.warnings) else [str(text) for text in json.loads(row.warnings)]
+
+
+def _caution(row: Any) -> str:
+    """Write in brackets, with a space before it, that a row's times are noisy or drift; "" where they are steady."""
+    words = dict.fromkeys(text.partition(":")[0] for text in unsteady(row))
+    return f" ({', '.join(words)})" if words else ""
+
+
 def speed(row: Any) -> str:
-    """Write a row's time and, where it is known, its speed-up."""
+    """Write a row's time, whether it is unsteady and, where it is known, its speed-up."""
     over = "" if wording.absent(row.speedup) else f", {wording.factor(row.speedup)}"
-    return f"{wording.number(row.median_ms)} ms{over}"
+    return f"{wording.number(row.median_ms)} ms{_caution(row)}{over}"
+
+
+def milliseconds(row: Any) -> Html | str:
+    """Write a row's time as a cell of a table; where it is unsteady, that is told, and what to do under the pointer."""
+    told = f"{wording.number(row.median_ms)}{_caution(row)}"
+    return tag("span", told, title=" ".join(unsteady(row))) if unsteady(row) else told
 
 
 def risk(won: Won) -> str:
@@ -124,7 +142,7 @@ def rows_table(site: Site, caption: object, rows: pd.DataFrame) -> Html:
     for row in rows.itertuples():
         name = join(chip(site.marks[row.method]), tag("span", row.label, title=row.variant))
         told = (
-            wording.number(row.median_ms),
+            milliseconds(row),
             wording.factor(row.speedup),
             wording.error(row.relative_error_max),
             wording.error(row.relative_error_p99),

@@ -140,7 +140,7 @@ def _cells_table(site: Site, name: str, own: Sequence[Race]) -> Html:
         told = (
             site.place(row),
             row_link(row, UP) if name in race.methods else row.label,
-            wording.number(row.median_ms) if name in race.methods else row.status,
+            cells.milliseconds(row) if name in race.methods else row.status,
             wording.factor(row.speedup),
             wording.error(row.relative_error_max),
             wording.count(row.wrong_rays),
