@@ -12,7 +12,7 @@ import pytest
 from harness.merging import merge
 from harness.results.store import Store
 from reports.analysis import derive
-from reports.site import board, build, gather, standings
+from reports.site import board, build, cells, gather, standings
 from tests import machine_runs
 from tests.synthetic_run import SURFACES, cell, sampled, tiny_run
 
@@ -41,9 +41,9 @@ def ended(made: dict[str, Any], status: str, reason: str, judged: bool = False) 
     return made | {"time": None, "status": status, "reason": reason} | ({} if judged else {"accuracy": None})
 
 
-def counted(folder: Path, *cells: dict[str, Any]) -> dict[str, standings.Standing]:
-    """Return the standings of a run of these cells."""
-    return standing(tiny_run(folder, *cells))
+def counted(folder: Path, *rows: dict[str, Any]) -> dict[str, standings.Standing]:
+    """Return the standings of a run of these rows."""
+    return standing(tiny_run(folder, *rows))
 
 
 def standing(*folders: Path) -> dict[str, standings.Standing]:
@@ -116,3 +116,17 @@ def test_unsteady_times_are_told(tmp_path):
         assert re.search(r'<span title="noisy: the middle half[^>]*>1.00 \(noisy\)<', page)
         assert "20.0 (" not in page
     assert "noisy" not in steady_one
+
+
+def test_wrong_rays_are_counted_of_the_rays_that_were_judged(tmp_path):
+    few, many = timed(NEWTON, 1.0, misses=5), timed(NEWTON, 1.0, "sphere", misses=5)
+    few["accuracy"] |= {"judged": 400}
+    many["accuracy"] |= {"judged": 500}
+    slow = [timed(MARCH, 20.0), timed(MARCH, 20.0, "sphere")]
+    frame = gather.gather([tiny_run(tmp_path / "run", few, many, *slow)]).frame
+    each = {race.first.surface: race for race in standings.races(frame)}
+    newton = {surface: race.counted["newton"] for surface, race in each.items()}
+    assert {surface: (one["x"], one["n"]) for surface, one in newton.items()} == {"torus": (5, 400), "sphere": (5, 500)}
+    assert each["torus"].won["any"].faster is None, "5 of 400 are more than the share that is named beside a winner"
+    assert cells.risk(each["sphere"].won["any"]).endswith("5 of 500 rays wrong")
+    assert each["torus"].counted["ray_march"]["n"] == 48 * 48 - 57 - 2, "an older row, of which the rest is left"

@@ -13,7 +13,7 @@ from reports.site.cells import BOUNDS, Site, risk, row_link, speed, unsteady
 from reports.site.gather import DEGREES, HIGHER, NO_POLYNOMIAL, SCENES
 from reports.site.markup import Head, Html, Line, folded, join, link, table, tag
 from reports.site.scatter import chip
-from reports.site.standings import FULL, LEVELS, Race, Standing, standings
+from reports.site.standings import FULL, LEVELS, RISKY, Race, Standing, standings
 
 FIRST = LEVELS[0][0]  # the level that a page shows before anything is chosen
 NAMED = 3  # methods that a class names
@@ -151,7 +151,8 @@ def _standings(site: Site) -> Html:
         Head(
             "wrong rays",
             True,
-            "of its fastest setting, whatever its errors: what speed risks; of that with fewest where none was timed",
+            "of its fastest setting, whatever its errors, and of how many clear rays: what speed risks; of that with "
+            "fewest where none was timed",
         ),
     )
     lines = []
@@ -253,7 +254,8 @@ def _winners(site: Site) -> Html:
     lead = tag(
         "p",
         "The fastest setting with every clear ray right, its time and its speed-up. Behind ≈ stand methods that are "
-        "not told to be slower. In red: what is faster, and answers some rays wrongly.",
+        "not told to be slower. In red: what is faster, and answers "
+        f"wrongly at most {RISKY:.0%} of the clear rays.",
         class_="faint",
     )
     title = tag("h2", "Winner of each surface")

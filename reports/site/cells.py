@@ -120,7 +120,7 @@ def risk(won: Won) -> str:
         return ""
     times = rounds.times_over(won.winner, won.faster)
     by = "faster" if wording.absent(times) else f"{wording.factor(times)} faster"  # they may share no round
-    rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.accuracy_rays)} rays wrong"
+    rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.clear_rays)} rays wrong"
     return f"{won.faster.label}: {by}, {rays}"
 
 

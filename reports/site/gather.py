@@ -59,7 +59,7 @@ class Gathered:
 
     frame: derive.derive's columns, those of `labels`, and `at` (the run's id), `processor`, `on` (the device, told
         apart from those of other machines), `driver`, `created`, `kind` (the class of the surface), `page` (of the
-        surface)
+        surface), `clear_rays` (see `_clear_rays`)
         and `scene_id`, which two rows share that were cast from the same view of the same surface
     methods: what the newest run that has a method stores of it, by name
     verdicts: the papers' claims that a run decides, with the title of that run
@@ -227,9 +227,22 @@ def _rows(frame: pd.DataFrame, run: str, machines: Mapping[str, str], plan: Plan
         driver=frame["device"].map(drivers),
         hardware=frame["device"].map(titles),
         created=plan.created,
+        clear_rays=_clear_rays(frame),
         scene_id=pd.Series(scenes, frame.index, dtype=object),
         kind=pd.Series([_class(row) for row in frame.itertuples()], frame.index, dtype=object),
     )
+
+
+def _clear_rays(frame: pd.DataFrame) -> pd.Series:
+    """Return how many rays were judged: decided, and neither grazing nor drowned. Wrong rays are counted of these.
+
+    Older rows do not say it. There it is as many as are left if no undecided ray is in one of the classes, which are
+    the fewest that there may be. Returns Int64 with the index of `frame`; absent where nothing was checked.
+    """
+    fewest = frame["accuracy_rays"].astype("Int64")
+    for name in ("undecided", "grazing", "drowned"):
+        fewest = fewest - frame[name].astype("Int64").fillna(0)
+    return frame["judged"].astype("Int64").fillna(fewest.clip(lower=0))
 
 
 def _scene(comparison: str, identity: Any) -> str:

@@ -19,7 +19,7 @@ LEVELS: tuple[tuple[str, float], ...] = (  # how a bound is written in a page's 
     ("any", math.inf),
 )
 FULL = 256
-RISKY = 0.01  # the largest share of wrong rays of a variant that is named beside a winner
+RISKY = 0.01  # the largest share of wrong rays, of those judged, of a variant that is named beside a winner
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +177,7 @@ def _won(rows: pd.DataFrame, each: Sequence[Any], bound: float) -> Won:
 def _faster(each: Sequence[Any], winner: Any) -> Any | None:
     """Return the fastest row that answers a few rays wrongly and is told to be faster than the winner; None without."""
     for row in each:
-        if pd.isna(row.wrong_rays) or not 0 < row.wrong_rays <= RISKY * row.accuracy_rays:
+        if pd.isna(row.wrong_rays) or not 0 < row.wrong_rays <= RISKY * row.clear_rays:
             continue
         if row.median_ms < winner.median_ms and ties.is_slower(winner, row):
             return row
@@ -193,7 +193,7 @@ class Standing:
         which it was timed or failed, crashed or ran out of time
     speedup: the median of its fastest such variants' speed-ups over `baseline_of`, over the `compared` cells: those in
         which the baseline, too, answers every clear ray rightly; None where there are none
-    wrong, rays: clear rays that its fastest variants, right or not, answer wrongly, of those checked; where none was
+    wrong, rays: clear rays that its fastest variants, right or not, answer wrongly, of those judged; where none was
         timed, those of the judged variant with fewest
     """
 
@@ -247,7 +247,7 @@ def _counted(race: Race) -> dict[str, Any]:
         these, else 0; a method that no other entered against wins nothing
     v: for each level the speed-up of its fastest usable variant over the site's baseline, 0 where that is not known;
         null without such a variant
-    x, n: wrong rays of its fastest variant or, where none was timed, of that with fewest, and how many were checked
+    x, n: wrong rays of its fastest variant or, where none was timed, of that with fewest, and how many were judged
     """
     told: dict[str, Any] = {}
     against = len(race.entered) > 1
@@ -260,7 +260,7 @@ def _counted(race: Race) -> dict[str, Any]:
             wins.append(against * (2 if first and not won.tied else 1 if first or beside else 0))
             own = won.usable.get(method)
             speedups.append(None if own is None else _rounded(own.over_baseline))
-        told[method] = {"w": wins, "v": speedups, "x": int(_zero(row.wrong_rays)), "n": int(_zero(row.accuracy_rays))}
+        told[method] = {"w": wins, "v": speedups, "x": int(_zero(row.wrong_rays)), "n": int(_zero(row.clear_rays))}
     return told
 
 
