@@ -130,3 +130,19 @@ def test_wrong_rays_are_counted_of_the_rays_that_were_judged(tmp_path):
     assert each["torus"].won["any"].faster is None, "5 of 400 are more than the share that is named beside a winner"
     assert cells.risk(each["sphere"].won["any"]).endswith("5 of 500 rays wrong")
     assert each["torus"].counted["ray_march"]["n"] == 48 * 48 - 57 - 2, "an older row, of which the rest is left"
+
+
+def test_the_lead_says_what_was_checked_and_what_is_undecided(tmp_path):
+    rows = [timed(NEWTON, 1.0), timed(MARCH, 2.0)]
+    for name, undecided, told in (
+        ("some", 48, "2.1 % of these rays are undecided"),
+        ("none", 0, "certified first hits."),
+    ):
+        for row in rows:
+            row["accuracy"] |= {
+                "undecided": undecided,
+                "truth_misses": 48**2 - row["accuracy"]["truth_hits"] - undecided,
+            }
+        build.build([tiny_run(tmp_path / name, *rows)], tmp_path / f"site-{name}")
+        text = (tmp_path / f"site-{name}" / "index.html").read_text(encoding="utf-8")
+        assert "its answers to a grid of rays were held against certified first hits" in text and told in text

@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import pandas as pd
+
 from reports import wording
 from reports.analysis import ties
 from reports.site.cells import BOUNDS, Site, risk, row_link, speed, unsteady
@@ -82,9 +84,20 @@ def _lead(site: Site) -> Html:
         f"Which method finds fastest where a ray first hits an implicit surface? {methods} on {surfaces}, on {devices} "
         f"of {machines}, from ",
         link("runs.html", f"{runs} up to {newest}"),
-        ". Every answer was held against a certified first hit before it was timed.",
+        ". Before a setting was timed, its answers to a grid of rays were held against certified first hits",
+        _undecided(site),
+        ".",
         class_="lead",
     )
+
+
+def _undecided(site: Site) -> str:
+    """Say, with a comma before it, of which share of the checked rays no first hit is certified; "" for none."""
+    checked = pd.concat([race.rows[["undecided", "accuracy_rays"]] for race in site.cells]).dropna().sum()
+    if not checked["undecided"]:
+        return ""
+    share = wording.share(float(checked["undecided"] / checked["accuracy_rays"]))
+    return f"; {share} of these rays are undecided, and do not count"
 
 
 def _noise(site: Site) -> Html | None:
