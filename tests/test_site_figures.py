@@ -82,6 +82,9 @@ def test_a_median_speedup_is_over_one_baseline_and_says_of_how_many_cells(tmp_pa
     newton = standing(tmp_path / "first", tmp_path / "other")["newton"]
     assert (newton.speedup, newton.compared, newton.usable) == (30.0, 3, 4), "of 20, 30 and 40, and not 5"
     assert board.said(newton)[2] == "30.0× in 3"
+    build.build([tmp_path / "first", tmp_path / "other"], tmp_path / "site")
+    index = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
+    assert "1.00 ms, 40.0×" in index and "1.00 ms, 5.00×" not in index, "beside a winner it is over the same"
 
 
 def test_rows_of_a_merged_run_are_of_the_machine_that_made_them(tmp_path):

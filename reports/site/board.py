@@ -266,9 +266,9 @@ def _winners(site: Site) -> Html:
     )
     lead = tag(
         "p",
-        "The fastest setting with every clear ray right, its time and its speed-up. Behind ≈ stand methods that are "
-        "not told to be slower. In red: what is faster, and answers "
-        f"wrongly at most {RISKY:.0%} of the clear rays.",
+        f"The fastest setting with every clear ray right, its time and its speed-up over {site.overall}. Behind ≈ are "
+        "methods that are not told to be slower. In red: what is faster, and answers wrongly at most "
+        f"{100 * RISKY:g} % of the clear rays.",
         class_="faint",
     )
     title = tag("h2", "Winner of each surface")
@@ -285,7 +285,7 @@ def _winner_cell(site: Site, race: Race, level: str) -> list[object]:
     tied = f"≈ {', '.join(row.label for row in won.tied)}" if won.tied else ""
     return [
         name,
-        tag("div", speed(won.winner)),
+        tag("div", speed(won.winner, won.winner.over_baseline)),
         tag("div", tied, class_="faint") if tied else None,
         tag("div", risk(won), class_="risk") if won.faster is not None else None,
     ]
@@ -309,8 +309,8 @@ def _rules(site: Site) -> Html:
             "p",
             f"A median speed-up is over {site.overall} and of the cells whose number stands behind it: those in which "
             "a setting keeps the bound, and the baseline was timed in turns with it and answers every clear ray "
-            "rightly. Two methods' medians may be of different cells; the winners tell who is faster in one cell. A "
-            f"speed-up beside a winner is over the baseline of its own run: {site.baseline(site.data.frame)}.",
+            "rightly. Two methods' medians may be of different cells; the winners tell who is faster in one cell. The "
+            f"pages of surfaces have speed-ups over the baseline of each run: {site.baseline(site.data.frame)}.",
         ),
         tag(
             "p",

@@ -102,9 +102,9 @@ def _caution(row: Any) -> str:
     return f" ({', '.join(words)})" if words else ""
 
 
-def speed(row: Any) -> str:
+def speed(row: Any, speedup: Any) -> str:
     """Write a row's time, whether it is unsteady and, where it is known, its speed-up."""
-    over = "" if wording.absent(row.speedup) else f", {wording.factor(row.speedup)}"
+    over = "" if wording.absent(speedup) else f", {wording.factor(speedup)}"
     return f"{wording.number(row.median_ms)} ms{_caution(row)}{over}"
 
 
@@ -163,7 +163,7 @@ def error_plot(site: Site, rows: pd.DataFrame, what: str) -> Html:
             row.relative_error_max,
             site.marks[row.method],
             row.label,
-            f"{row.label}: {speed(row)}, largest error {wording.error(row.relative_error_max)} {RADIUS}, "
+            f"{row.label}: {speed(row, row.speedup)}, largest error {wording.error(row.relative_error_max)} {RADIUS}, "
             f"{wording.count(row.wrong_rays)} wrong rays",
             f"#{anchor(row)}",
             bool(row.wrong_rays > 0),

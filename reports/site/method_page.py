@@ -98,7 +98,7 @@ def _plot(site: Site, name: str, own: Sequence[Race]) -> Html:
         row = _best(race, name)
         if wording.absent(row.relative_error_max) or wording.absent(row.wrong_rays):
             continue
-        title = f"{row.surface_title}: {row.label}, {cells.speed(row)}, "
+        title = f"{row.surface_title}: {row.label}, {cells.speed(row, row.over_baseline)}, "
         title += f"largest error {wording.error(row.relative_error_max)}"
         to = f"{UP}surfaces/{row.page}.html#{anchor(row)}"
         points.append(
@@ -141,7 +141,7 @@ def _cells_table(site: Site, name: str, own: Sequence[Race]) -> Html:
             site.place(row),
             row_link(row, UP) if name in race.methods else row.label,
             cells.milliseconds(row) if name in race.methods else row.status,
-            wording.factor(row.speedup),
+            wording.factor(row.over_baseline),
             wording.error(row.relative_error_max),
             wording.count(row.wrong_rays),
             first,
@@ -157,9 +157,8 @@ def _cells_table(site: Site, name: str, own: Sequence[Race]) -> Html:
         Head("wrong rays", True),
         Head("fastest"),
     )
-    return table(
-        f"Its fastest setting within {BOUNDS[FIRST]}, else its fastest, beside the winner there.", heads, lines
-    )
+    caption = f"Its fastest setting within {BOUNDS[FIRST]}, else its fastest, beside the winner there. "
+    return table(f"{caption}Speed-ups are over {site.overall}.", heads, lines)
 
 
 def _claims(site: Site, name: str, told: Mapping[str, Any]) -> Html | None:

@@ -89,7 +89,8 @@ def races(frame: pd.DataFrame) -> list[Race]:
     large set of views only the first view is raced, and of a surface in several forms only the printed one.
     """
     raced = surface_names.printed_alone(viewstats.one_view_of_each(frame))
-    rows, untimed = _over(baseline_of(frame), derive.contenders(raced)), _untimed(raced)
+    rows = _over(baseline_of(frame), derive.contenders(raced))
+    untimed = _untimed(raced.assign(over_baseline=math.nan))
     grouped: dict[tuple[Any, ...], list[Race]] = {}
     order = {key: i for i, key in enumerate(zip(frame["comparison"], frame["on"], frame["precision"], strict=True))}
     for at, own in rows.groupby(derive.GROUP, sort=False):

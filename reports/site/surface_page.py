@@ -127,7 +127,7 @@ def _answers(race: Race) -> Html:
         link_ = tag("a", row.label, href=f"#{pictures.anchor(row)}")
         tied = ", ".join(other.label for other in won.tied) or wording.NONE
         error = wording.error(row.relative_error_max)
-        lines.append(Line((BOUNDS[name], link_, cells.speed(row), error, tied, risk(won) or wording.NONE)))
+        lines.append(Line((BOUNDS[name], link_, cells.speed(row, row.speedup), error, tied, risk(won) or wording.NONE)))
     heads = (
         Head("bound"),
         Head("fastest with every ray right"),
