@@ -171,3 +171,16 @@ def test_a_column_of_speed_ups_is_there_where_the_baseline_is(tmp_path: Path, ba
         assert table is not None
         assert ("speed-\nup" in [column.title for column in table.columns]) is baseline
         assert ("Speed-up is" in table.caption) is baseline
+
+
+def test_one_in_a_thousand_is_of_the_clear_rays() -> None:
+    columns = ("wrong_rays", "judged", "accuracy_rays", "undecided", "grazing", "drowned")
+    rows = [
+        (16, 9000, 16384, 0, 7384, 0),
+        (16, 16384, 16384, 0, 0, 0),
+        (16, None, 16384, 200, 300, None),
+        *[(None,) * 6],
+    ]
+    frame = pd.DataFrame(rows, columns=columns)
+    assert list(derive.clear_rays(frame).fillna(-1)) == [9000, 16384, 15884, -1]
+    assert list(derive.nearly_all_right(frame)) == [False, True, False, False]

@@ -19,6 +19,8 @@ GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 _DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
 TOO_WRONG = "wrong on "  # how the reason begins of a row that is not timed since too many of its judged rays are wrong
+_UNCLEAR = ("undecided", "grazing", "drowned")
+CLEAR_RAYS = ("judged", "accuracy_rays", *_UNCLEAR)  # columns that clear_rays reads
 FLOOR_FACTOR = 2.0  # a time below this many times the null method's is more the harness's than the method's
 
 
@@ -119,12 +121,24 @@ def within(rows: pd.DataFrame, error: float) -> pd.DataFrame:
     return rows[all_right(rows) & exact]
 
 
-def nearly_all_right(rows: pd.DataFrame) -> pd.Series:
-    """Tell for each row whether at most 1 in 1,000 of its rays that are neither grazing nor drowned is wrong.
+def clear_rays(frame: pd.DataFrame) -> pd.Series:
+    """Return how many rays were judged: decided, and neither grazing nor drowned. Wrong rays are counted of these.
 
-    Returns bool with the index of `rows`. Both counts are over all rays of the accuracy check.
+    Older rows do not say it. There it is as many as are left if no undecided ray is in one of the classes, which are
+    the fewest that there may be. Returns Int64 with the index of `frame`; absent where nothing was checked.
     """
-    return rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")
+    fewest = frame["accuracy_rays"].astype("Int64")
+    for name in _UNCLEAR:
+        fewest = fewest - frame[name].astype("Int64").fillna(0)
+    return frame["judged"].astype("Int64").fillna(fewest.clip(lower=0))
+
+
+def nearly_all_right(rows: pd.DataFrame) -> pd.Series:
+    """Tell for each row whether at most 1 in 1,000 of its clear rays is wrong: false where nothing was checked.
+
+    Returns bool with the index of `rows`.
+    """
+    return rows["wrong_rays"].astype("float64") <= 1e-3 * clear_rays(rows).astype("float64")
 
 
 def on_first_device(rows: pd.DataFrame) -> pd.DataFrame:

@@ -57,7 +57,7 @@ class Axis:
 _READ = [
     *("run", "key", "slot", "comparison", "method", "variant", "label", "method_label", "answers", "baseline"),
     *("surface", "surface_title", "scene", "view", "size", "samples_per_pixel", "stage", "precision", "device"),
-    *("degree", "instances", "prepass", "origin", "median_ms", "wrong_rays", "accuracy_rays", *rounds.COLUMNS),
+    *("degree", "instances", "prepass", "origin", "median_ms", "wrong_rays", *derive.CLEAR_RAYS, *rounds.COLUMNS),
 ]  # columns: a frame of 10^6 rows and all columns is not copied for this
 _ELSE = ("device", "precision", "stage", "samples_per_pixel")
 AXES = (

@@ -227,22 +227,10 @@ def _rows(frame: pd.DataFrame, run: str, machines: Mapping[str, str], plan: Plan
         driver=frame["device"].map(drivers),
         hardware=frame["device"].map(titles),
         created=plan.created,
-        clear_rays=_clear_rays(frame),
+        clear_rays=derive.clear_rays(frame),
         scene_id=pd.Series(scenes, frame.index, dtype=object),
         kind=pd.Series([_class(row) for row in frame.itertuples()], frame.index, dtype=object),
     )
-
-
-def _clear_rays(frame: pd.DataFrame) -> pd.Series:
-    """Return how many rays were judged: decided, and neither grazing nor drowned. Wrong rays are counted of these.
-
-    Older rows do not say it. There it is as many as are left if no undecided ray is in one of the classes, which are
-    the fewest that there may be. Returns Int64 with the index of `frame`; absent where nothing was checked.
-    """
-    fewest = frame["accuracy_rays"].astype("Int64")
-    for name in ("undecided", "grazing", "drowned"):
-        fewest = fewest - frame[name].astype("Int64").fillna(0)
-    return frame["judged"].astype("Int64").fillna(fewest.clip(lower=0))
 
 
 def _scene(comparison: str, identity: Any) -> str:
