@@ -20,6 +20,7 @@ from .conftest import opened, usable_devices
 SIZE = 64  # pixels a side of a window, in the middle of an image of PIXELS
 PIXELS = 512
 DIFFER = 2.0**-18  # domain radii
+ISOLATE, FINISH = 0, 1  # stages
 OPENCL = [info.name for info in usable_devices() if info.name.startswith("opencl")][:1]
 pytestmark = pytest.mark.skipif(not OPENCL, reason="no device for OpenCL")
 
@@ -39,24 +40,28 @@ def caster(surface):
     return Caster(opened(OPENCL[0]), surface)
 
 
-def cast(surface, camera, *edit, size=SIZE):
+def cast(surface, camera, *edit, stage=ISOLATE):
     """A window's shares by stage, and the share of its answers that differ from bernstein's in float64.
 
-    `edit` is a line of the kernel, and what stands in its place in the stage that isolates.
+    `edit` is a line of the kernel, and what stands in its place in a stage.
     """
-    right, rays = caster(surface), rays_of(camera, size)
-    isolate, mine = right.programs[0], dataclasses.replace
+    answer, exact = answers(surface, camera, *edit, stage=stage)
+    return answer.shares, float(suspects(answer.hits, exact, DIFFER * surface.domain.radius).mean())
+
+
+def answers(surface, camera, *edit, stage=ISOLATE):
+    """The answers to a window, as cast says, and those of bernstein in float64."""
+    right, rays = caster(surface), rays_of(camera, SIZE)
+    programs, built, mine = list(right.programs), list(right.built), dataclasses.replace
     if edit:
-        assert sum(section.text.count(edit[0]) for section in isolate.sections) == 1
-        sections = tuple(mine(section, text=section.text.replace(*edit)) for section in isolate.sections)
-        isolate = mine(isolate, sections=sections)
+        assert sum(section.text.count(edit[0]) for section in programs[stage].sections) == 1
+        sections = tuple(mine(section, text=section.text.replace(*edit)) for section in programs[stage].sections)
+        programs[stage] = mine(programs[stage], sections=sections)
+        built[stage] = right.device.build(programs[stage])
     broken = object.__new__(Caster)
     broken.device, broken.surface = right.device, surface
-    broken.programs = (isolate, *right.programs[1:])
-    broken.built = [right.device.build(isolate), *right.built[1:]] if edit else right.built
-    answer = broken.tiles(camera, rays)
-    exact = right.alone("float64", rays)
-    return answer.shares, float(suspects(answer.hits, exact, DIFFER * surface.domain.radius).mean())
+    broken.programs, broken.built = tuple(programs), built
+    return broken.tiles(camera, rays), right.alone("float64", rays)
 
 
 STEP = "bundle = stack[depth - 1];"  # to the next path
@@ -144,3 +149,21 @@ def test_a_break_that_leaves_answers_right_shows_in_the_shares(name):
     assert within(shares, ranges), shares
     shares, _ = cast(surface, camera, *edit)
     assert not within(shares, ranges), shares
+
+
+LINE = "        if (!any_lane(BOTH(looking, NOT(line)))) {"  # whether one step by the mean of f is enough
+
+
+@pytest.mark.parametrize(("name", "aside", "least"), [("torus", 0.75, 0.8), ("barth_sextic", 0.6, 0.05)])
+def test_pixels_take_one_step_by_the_mean_of_f(name, aside, least):
+    surface = surfaces.get(name)
+    answer, _ = answers(surface, window(surface, aside))
+    longer, _ = answers(surface, window(surface, aside), LINE, f"line = NOWHERE; {LINE}", stage=FINISH)
+    single = (answer.stages == 2) | (answer.stages == 3)
+    assert least < np.mean(answer.hits.evaluations[single] < longer.hits.evaluations[single]) < 1.0
+
+
+def test_one_step_by_the_mean_of_f_is_not_enough_everywhere():
+    surface = surfaces.get("barth_sextic")
+    _, differ = cast(surface, window(surface, 0.6), LINE, f"line = NOT(NOWHERE); {LINE}", stage=FINISH)
+    assert differ > 0.0

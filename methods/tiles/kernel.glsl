@@ -11,6 +11,7 @@
 
 #define FINEST 4.0             // least tolerance of the refinement, in unit roundoffs
 #define LAST_STEPS 2           // most steps by means of f
+#define STRAIGHT 128.0         // longest step, in unit roundoffs, over which f may be a line as far as roundings tell
 #define SHORT 0.0625           // longest last step but one, over the root of the tolerance
 
 // What is known behind a single tile's first piece, for rays whose root lies before the domain.
@@ -119,6 +120,32 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
     return rays;
 }
 
+// f around points t: its mean over FIRST_PAIRS pairs of points, the last of them `reach` away; how far f is there from a
+// line with the inverse slope g, in units of t; and whether the last pair shows that the root is between its points.
+STRUCT(Around) struct Around { wide mean; wide bends; yes before; yes behind; };
+
+Around around(Pencil rays, wide t, wide g, real reach) {
+    Around near;
+    wide inner = wide(0.0);
+    near.bends = wide(0.0);
+    for (int k = 1; k < FIRST_PAIRS; k++) {
+        real away = FIRST_APART * real(k) * (UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+        wide before = wide_value(wide_point(rays.o, t - away, rays.d));
+        wide after = wide_value(wide_point(rays.o, t + away, rays.d));
+        near.bends += fabs(g * (after - before) - 2.0 * away);
+        inner += before + after;
+    }
+    wide first = wide_value(wide_point(rays.o, t - reach, rays.d));
+    wide last = wide_value(wide_point(rays.o, t + reach, rays.d));
+    near.bends += fabs(g * (last - first) - 2.0 * reach);
+    real pairs = real(FIRST_PAIRS - 1);
+    near.bends += fabs(g * (inner - pairs * (first + last))) * (0.5 / max(pairs, 1.0));
+    near.mean = (inner + (first + last)) * (0.5 / (pairs + 1.0));
+    near.before = NOT(MORE(first * g, wide(0.0)));
+    near.behind = MORE(last * g, wide(0.0));
+    return near;
+}
+
 // Newton's method on f itself within [a, b], from t on. `g` is the inverse of f's slope; it becomes that of the secant
 // where a step is so long that rounding errors do not matter. `good`: the last step is short, and f changes its sign
 // between two points at which it was evaluated.
@@ -132,16 +159,41 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     wide lo = a;
     wide hi = b;
     wide t = clamp(from, a, b);
-    wide f = wide_value(wide_point(rays.o, t, rays.d));
+    real rough = UNCERTAIN * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);
+    wide f = wide(0.0);
+    yes seen_before = NOWHERE;
+    yes seen_behind = NOWHERE;
+    int evaluations = 1;
+    if (FIRST_PAIRS > 0 && longest <= STRAIGHT * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS)) {
+        real reach = 1.125 * longest;
+        Around near = around(rays, t, g, reach);
+        evaluations = 2 * FIRST_PAIRS;
+        f = near.mean;
+        seen_before = near.before;
+        seen_behind = near.behind;
+        // where f is a line over the only step, as far as roundings tell, another value of f would tell nothing more
+        wide only = -f * g;
+        real leftover = 2.0 * reach * (2.0 * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+        yes line = BOTH(AT_MOST(fabs(only), wide(longest)), AT_MOST(near.bends, wide(rough)));
+        line = BOTH(BOTH(line, AT_MOST(fabs(only) * near.bends, wide(leftover))), BOTH(seen_before, seen_behind));
+        if (!any_lane(BOTH(looking, NOT(line)))) {
+            Refined straight;
+            straight.t = clamp(t + only, a, b);
+            straight.good = line;
+            straight.evaluations = evaluations;
+            return straight;
+        }
+    } else {
+        f = wide_value(wide_point(rays.o, t, rays.d));
+    }
     yes behind = MORE(f * g, wide(0.0));  // the root is before t
-    yes seen_before = NOT(behind);
-    yes seen_behind = behind;
+    seen_before = EITHER(seen_before, NOT(behind));
+    seen_behind = EITHER(seen_behind, behind);
     hi = CHOOSE(behind, t, hi);
     lo = CHOOSE(behind, lo, t);
     wide next = t - f * g;
     next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
     wide step = next - t;
-    int evaluations = 1;
     for (int k = 0; k < STEPS && any_lane(BOTH(looking, MORE(fabs(step), wide(longest)))); k++) {
         wide f1 = wide_value(wide_point(rays.o, next, rays.d));
         evaluations += 1;
@@ -164,7 +216,6 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     yes short_step = AT_MOST(fabs(step), wide(longest));
     yes enough = short_step;
     yes sloped = NOT(NOWHERE);  // steps by g are not far too short for the slope that f's values have
-    real rough = UNCERTAIN * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);
     for (int turn = 0; turn < LAST_STEPS && FIRST_PAIRS > 0; turn++) {
         if (turn > 0 && !any_lane(BOTH(looking, NOT(enough)))) break;
         wide sum = wide(0.0);

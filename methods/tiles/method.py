@@ -19,9 +19,10 @@ A frame takes four stages, and nothing comes back to the host between them:
    there) or open. A tile whose roots lie at too many depths for one piece is tried once more with nodes in planes that
    lean as the surface does (LEANS).
    At the rim, where the domain cuts the surface, a single tile is searched behind its piece too.
-2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides: a
-   few steps, and one by the mean of f over FIRST_PAIRS pairs of points, as in bernstein. Where f at these is far
-   from a line, the mean is over PAIRS.
+2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides, by
+   its mean over FIRST_PAIRS pairs of points around the interpolated root. Where f at these is no line as far as
+   roundings tell, or the step is long, a few steps follow, and one by the mean over points around the root, as in
+   bernstein: over FIRST_PAIRS pairs, or over PAIRS where f at these is far from a line.
 3. packets: the open tiles' pixels, 4 by 4 together. Each has its own fit and verdict, and only the halving is shared.
 4. rest: what is still open, and roots whose last step leaves more than TOLERANCE, are cast by bernstein's kernel from
    the depth on that is known to be empty.
@@ -203,12 +204,14 @@ METHOD = Method(
         Parameter(
             "FIRST_PAIRS",
             2,
-            "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step",
+            "pairs of samples around the root, over which the first step and the last one take the mean of f; 0: no "
+            "such steps",
         ),
         Parameter(
             "FIRST_APART",
             4.0,
-            "distance between neighbouring samples of FIRST_PAIRS, in unit roundoffs of the domain's diameter",
+            "distance between neighbouring samples of FIRST_PAIRS, but for the last pair of the first step, in unit "
+            "roundoffs of the domain's diameter",
         ),
         Parameter(
             "UNCERTAIN",
