@@ -200,7 +200,7 @@ METHOD = Method(
             sweep=(2.0**-8, 2.0**-12, 2.0**-18),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("STEP", 2.0**-18, "longest last step but one of the refinement, over the domain's diameter"),
+        Parameter("STEP", 2.0**-17, "longest last step but one of the refinement, over the domain's diameter"),
         Parameter(
             "FIRST_PAIRS",
             2,
