@@ -154,13 +154,13 @@ def test_a_break_that_leaves_answers_right_shows_in_the_shares(name):
 LINE = "        if (!any_lane(BOTH(looking, NOT(line)))) {"  # whether one step by the mean of f is enough
 
 
-@pytest.mark.parametrize(("name", "aside", "least"), [("torus", 0.75, 0.8), ("barth_sextic", 0.6, 0.05)])
-def test_pixels_take_one_step_by_the_mean_of_f(name, aside, least):
+@pytest.mark.parametrize(("name", "aside", "low", "high"), [("torus", 0.75, 0.9, 1.0), ("barth_sextic", 0.6, 0.1, 0.9)])
+def test_pixels_take_one_step_by_the_mean_of_f(name, aside, low, high):
     surface = surfaces.get(name)
     answer, _ = answers(surface, window(surface, aside))
     longer, _ = answers(surface, window(surface, aside), LINE, f"line = NOWHERE; {LINE}", stage=FINISH)
     single = (answer.stages == 2) | (answer.stages == 3)
-    assert least < np.mean(answer.hits.evaluations[single] < longer.hits.evaluations[single]) < 1.0
+    assert low <= np.mean(answer.hits.evaluations[single] < longer.hits.evaluations[single]) <= high
 
 
 def test_one_step_by_the_mean_of_f_is_not_enough_everywhere():
