@@ -13,7 +13,7 @@ CLEAR := --clear
 endif
 endif
 
-.PHONY: quick papers site guide test campaign bench gate check format clean
+.PHONY: quick papers site guide test campaign bench gate check style types kernels format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -50,10 +50,16 @@ bench: $(READY)
 gate: $(READY)
 	$(BIN)/firsthit gate configs/gate.toml
 
-check: $(READY)
+check: style types kernels
+
+style: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+
+types: $(READY)
 	$(BIN)/mypy
+
+kernels: $(READY)
 	$(BIN)/firsthit compile --together --timeout 300 --surface torus
 
 format: $(READY)

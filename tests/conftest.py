@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import gc
 import os
 import signal
 import tempfile
@@ -25,6 +26,7 @@ from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
 from harness.memory import Watch
 
+gc.set_threshold(50_000, 20, 20)  # among all that tests hold, Python's own pace takes a tenth of the time of reports
 signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
 CACHES = {"PYOPENCL_NO_CACHE": "0", "POCL_KERNEL_CACHE": "1", "MESA_SHADER_CACHE_DISABLE": "false"}
 

@@ -57,7 +57,7 @@ rounds = 1
 """
 
 SEEN = """title = "Forms, origins, directions and hard rays"
-surfaces = ["torus", "torus:nested", "kiss"]
+surfaces = ["torus", "torus:nested"]
 sizes = [24]
 origins = ["nearest", "eye"]
 devices = {devices}
@@ -126,7 +126,7 @@ seconds = 0.002
 rounds = 1
 """
 MOVED = """title = "A camera's path"
-surfaces = ["sphere"]
+surfaces = ["kiss"]
 sizes = [16]
 devices = {devices}
 
