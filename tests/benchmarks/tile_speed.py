@@ -6,8 +6,9 @@ RUN is the folder of a run of configs/tiles.toml or configs/tiles-1024.toml. One
         --over interval_march interval_adaptive sphere_tracing ray_march
 
 For each device and size there is a table with a row for each surface: the median time of a frame of each method in ms,
-the times of the others over that of the method, and its largest error over that of the first of the others. The line
-below has the geometric means. A second table has the largest error of each method over the scene's radius, and the line
+the times of the others over that of the method, and its largest error over that of the first of the others. Times are
+divided round by round, so that a frame that gets faster once the others have ended gains nothing. The line below has
+the geometric means. A second table has the largest error of each method over the scene's radius, and the line
 below it how many clear rays each method answered wrongly. In the end stands how cost grows: time as a power of the
 pixels, fitted.
 """
@@ -15,6 +16,7 @@ pixels, fitted.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,6 +25,7 @@ import numpy as np
 import pandas as pd
 
 import firsthit
+from reports.analysis import rounds
 
 METHOD = "tiles"
 OTHERS = ("bernstein", "eft_yuksel", "newton")
@@ -37,13 +40,15 @@ def mean(ratios: pd.Series) -> float:
 def table_of(rows: pd.DataFrame, method: str, others: Sequence[str]) -> pd.DataFrame:
     """Return a table of the rows of one device and size: a line for each surface that the method has a time of.
 
-    Errors are over those of the first of the others.
+    Errors are over those of the first of the others. Ratios of times are medians over the rounds that timed both.
     """
     times = rows.pivot(index="surface", columns="method", values="median_ms")
     errors = rows.pivot(index="surface", columns="method", values="relative_error_max")
     table = times.reindex(columns=[method, *others]).dropna(subset=[method])
+    each = {(row.surface, row.method): row for row in rows.itertuples()}
     for other in others:
-        table[f"/ {other}"] = table[other] / table[method]
+        pairs = ((each.get((surface, other)), each[surface, method]) for surface in table.index)
+        table[f"/ {other}"] = [math.nan if slow is None else rounds.times_over(slow, fast) for slow, fast in pairs]
     return table.assign(largest=errors[method] / errors[others[0]])
 
 
