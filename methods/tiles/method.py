@@ -37,42 +37,39 @@ only.
 
 **Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an AMD processor
 without AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run
-of four sizes at 5112ea8, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures.
+of four sizes at 1fe7ee7, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures.
 16,384 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and
 eft_yuksel; newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays.
+Ratios are of the rounds that timed both, and times are medians of all rounds. So the 16-ball's ratios are smaller than
+those of its times: once the slower methods had ended, its frame took 21 ms in place of 32.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
-    clebsch       5.89   17.7       13.3        8.21    3.00            2.25             0.596
-    tangle        5.90   25.3       19.3        12.7    4.30            3.27             0.502
-    torus         7.55   20.2       16.6        7.01    2.68            2.20             0.531
-    Kummer        9.63   28.3       21.1        12.5    2.94            2.19             0.53
-    flirt         7.53   23.4       18.5        11.7    3.11            2.46             0.99
-    calyx         12.7   32.2       29.7        16.6    2.53            2.34             0.501
-    Barth sextic  11.1   37.7       52.5        20.1    3.38            4.71             1.2
-    Klein bottle  7.90   30.6       44.0        16.2    3.88            5.56             0.994
-    heart         8.74   32.1       45.7        17.6    3.67            5.23             0.99
-    chmutov       14.8   32.4       60.2        10.6    2.19            4.07             0.306
-    Endraß octic  35.0   78.9       131         31.7    2.26            3.75             0.847
-    Barth decic   42.2   102        206         46.1    2.41            4.88             0.577
-    16-ball       38.0   145        465         17.3    3.82            12.2             0.967
+    clebsch       4.62   17.3       13.0        8.08    3.48            2.57             0.542
+    tangle        6.20   25.3       19.7        12.7    4.00            3.16             0.723
+    torus         6.64   25.8       21.6        9.27    3.83            3.12             0.531
+    Kummer        9.22   28.4       23.2        15.9    3.23            2.60             0.884
+    flirt         7.22   24.6       19.3        12.4    3.67            2.75             0.99
+    calyx         10.7   28.7       26.5        15.4    2.69            2.53             0.565
+    Barth sextic  9.08   34.2       49.4        18.8    3.73            5.14             0.759
+    Klein bottle  6.89   28.4       41.7        15.4    4.03            5.66             0.737
+    heart         6.82   26.6       38.9        17.0    3.87            5.60             0.742
+    chmutov       14.3   34.6       60.7        10.6    2.33            4.18             0.352
+    Endraß octic  34.3   84.9       135         29.6    2.35            3.76             0.909
+    Barth decic   36.0   99.3       195         36.6    2.83            5.12             0.596
+    16-ball       21.2   145        453         15.1    4.34            13.9             1.07
 
 The larger the frame, the more it gains. Geometric means of the thirteen surfaces:
 
     pixels     over bernstein  least of them  over eft_yuksel  over newton
     ---------  --------------  -------------  ---------------  -----------
-    512x512    2.25            1.49           2.75             0.89
-    1024x1024  3.02            2.19           3.71             1.25
-    2048x2048  3.48            2.54           4.38             1.44
-    4096x4096  3.95            3.02           5.06             1.68
+    512x512    2.29            1.66           2.75             0.92
+    1024x1024  3.35            2.33           4.07             1.35
+    2048x2048  4.06            2.99           5.04             1.71
+    4096x4096  4.31            3.16           5.42             1.80
 
-Its time grows as the pixels to the power 0.83 in the mean (0.71 Barth sextic to 0.95 torus), bernstein's to the power
-0.96. 96 of the run's 260 cells were told to be noisy.
-
-At 1024x1024, by the device's clock for each step, which a throwaway script read, the refinement of single tiles'
-pixels is 0.6 of a frame of torus and Kummer, and 0.8 of flirt's. It is a few steps of Newton's method on f itself, and
-a mean of f over five points. There it alone takes more than a quarter of eft_yuksel's time. So on these three no
-isolation, however cheap, makes a frame four times as fast as eft_yuksel's.
+Its time grows as the pixels to the power 0.83 in the mean (0.71 Barth decic to 0.94 torus), bernstein's to the power
+0.98. 88 of the run's 260 cells were told to be noisy.
 
 On opencl:pocl configs/tiles-1024.toml gave 3.97 over bernstein (3.04 octic to 7.16 16-ball), 4.44 over eft_yuksel and
 1.61 over newton, in two sittings at 27d91c5; no clear ray of tiles, bernstein and eft_yuksel is wrong.
