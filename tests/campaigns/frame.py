@@ -38,6 +38,7 @@ MADE = (
     "made_formulas",
 )
 CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns", *(f"tests/{name}.py" for name in MADE))
+_ending = threading.Event()  # a trial ends what it started
 ENDINGS: list[Callable[[], None]] = []  # to be called when a trial ends, however it ends
 KEPT = 20  # trials that fell whose words are kept
 
@@ -144,8 +145,12 @@ def _tried(campaign: Campaign, seed: int, number: int, shared: Path) -> str | Co
         try:
             return campaign.trial(dice, Place(shared, Path(own)))
         finally:
-            while ENDINGS:
-                ENDINGS.pop()()
+            _ending.set()
+            try:
+                while ENDINGS:
+                    ENDINGS.pop()()
+            finally:
+                _ending.clear()
 
 
 @contextlib.contextmanager
@@ -252,14 +257,17 @@ def _leave(*_: Any) -> None:
 
 
 def _end_trial(*_: Any) -> None:
-    raise SystemExit
+    """Raise SystemExit, and ask again a second later: what runs now may drop it, as Python does in a callback.
+
+    A trial that ends what it started is not disturbed.
+    """
+    threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGTERM)).start()
+    if not _ending.is_set():
+        raise SystemExit
 
 
 def _dropped(error: Any) -> None:
-    """End the trial a little later where Python drops what _end_trial raises, as in a callback while it imports."""
-    if error.exc_type is SystemExit:
-        threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGTERM)).start()
-    else:
+    if error.exc_type is not SystemExit:
         sys.__unraisablehook__(error)
 
 
