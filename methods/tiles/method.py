@@ -128,8 +128,8 @@ LEANS were chosen on nine of these surfaces in this view.
       their ray in place of all of it                       sixteenth 1.03
     one step by the mean of f over two pairs of points      eight surfaces: refinement 0.76 to 0.91 of the      yes
       around the interpolated root, where f is a line as    time, frames 0.92 (flirt 0.84, octic 0.98); errors
-      far as roundings tell, in place of a step by one      over bernstein's in 150 views: 99.9 % 0.81 to 0.80,
-      value of f and another by a mean                      largest 0.77 to 0.76
+      far as roundings tell, in place of a step by one      over bernstein's in 150 views: 0.81 to 0.80 (99.9
+      value of f and another by a mean                      %), 0.77 to 0.76 (largest)
     rays that keep their depth as parameter, and have no    torus and clebsch, busy machine: refinement 0.96    no
       direction of length 1                                 and 0.98 of the time
     PACKET_FITS = 2, 3 and 6                                0.95 to 1.08, 0.93 to 1.06, 0.99 to 1.04            no
