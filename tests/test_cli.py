@@ -289,7 +289,7 @@ def test_lists_name_what_is_there(capsys, what):
 
 
 def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys):
-    code, out, _ = told(capsys, "plan", "quick", "--runs", tmp_path)  # a config of the package, by its name
+    code, out, _ = told(capsys, "plan", "newton-steps", "--runs", tmp_path)  # a config of the package, by its name
     assert code == 0
     assert "to run" in out
     assert not list(tmp_path.iterdir())
