@@ -243,7 +243,9 @@ def _quiet() -> None:
     def follow() -> None:
         if campaign := parent_process():
             campaign.join()
-            os.kill(os.getpid(), signal.SIGTERM)
+            while True:  # a signal that comes just before the process begins to wait does not wake it
+                os.kill(os.getpid(), signal.SIGTERM)
+                time.sleep(1.0)
 
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, lambda *_: None)  # what is ignored, the commands that trials start would ignore too
