@@ -93,6 +93,26 @@ def wait_for(condition, seconds=90.0):
         time.sleep(0.05)
 
 
+def stop_when(process, condition):
+    """Stop a process where the condition holds and stays so until it is told to go on."""
+
+    def holds():
+        process.send_signal(signal.SIGSTOP)
+        if condition():
+            return True
+        process.send_signal(signal.SIGCONT)
+        return False
+
+    wait_for(holds)
+
+
+def is_timing(run, rows):
+    """Tell whether a run has that many rows, and samples of cells that have none yet."""
+    have = {path.stem for path in (run / "cells").glob("[!.]*.json")}
+    sampled = {key for session in Begun(run)._sessions for key, kept in session.cells.items() if kept.samples}
+    return len(have) >= rows and bool(sampled) and not sampled & have
+
+
 def children(pid):
     found = []
     for path in Path("/proc").glob("[0-9]*/stat"):
@@ -140,8 +160,7 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
     path, runs = config(seconds=0.6), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
     cells_folder = runs / "t" / "cells"
-    wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 3)
-    wait_for(lambda: any(b'"round":' in path.read_bytes() for path in (runs / "t" / "begun").glob("*")))
+    stop_when(process, lambda: is_timing(runs / "t", rows=3))
     second = run("run", path, "--runs", runs)
     assert second.returncode == 3
     assert f"is being written by `firsthit run {path} --runs {runs}` (process {process.pid} of " in second.stderr
@@ -170,15 +189,14 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
 
 @pytest.mark.usefixtures("no_cache")
 def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
-    path, runs = config(seconds=1.0), tmp_path / "runs"
+    path, runs = config(seconds=0.6), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
-    cells_folder = runs / "t" / "cells"
-    wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 4)
-    time.sleep(1.0)  # the second comparison takes four seconds; before it holds anything, a lost worker costs no cell
+    stop_when(process, lambda: is_timing(runs / "t", rows=4))  # a worker that is lost before costs no cell
     victims = workers(process.pid)
     assert victims
     for victim in victims:
         os.kill(victim, signal.SIGKILL)
+    process.send_signal(signal.SIGCONT)
     assert process.wait(timeout=120) == 3
     found = rows(runs / "t")[1]
     assert sorted(row["status"] for row in found.values()) == ["crashed"] + ["ok"] * 7
