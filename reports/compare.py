@@ -207,10 +207,8 @@ def _runs(a: Plan, b: Plan) -> Table:
     """Show config, date, commit and devices of both runs."""
 
     def told(plan: Plan) -> dict[str, Any]:
-        environment = plan.environment
-        dirty = " with uncommitted changes" if environment.get("dirty") else ""
         devices = ", ".join(f"{device.get('name')} ({device.get('title')})" for device in plan.devices)
-        commit = f"{environment.get('commit')}{dirty}"
+        commit = wording.listed(plan.commits) or None
         return {"config": plan.config, "created": plan.created, "commit": commit, "devices": devices or None}
 
     first, second = told(a), told(b)

@@ -139,14 +139,12 @@ def _labels(run: Run) -> dict[str, str]:
 
 def _subtitle(run: Run) -> str:
     """Write the version, the run's name and date, and the commit."""
-    environment = run.plan.environment
-    dirty = " with uncommitted changes" if environment.get("dirty") else ""
     merged = f", merged from {wording.plural(len(run.plan.merged), 'run')}" if run.plan.merged else ""
     told = [
-        f"firsthit {environment.get('firsthit', '')}".strip(),
+        f"firsthit {run.plan.environment.get('firsthit', '')}".strip(),
         f"run “{run.plan.name}”{run.plan.part}{merged}",
         run.plan.created[:10],
     ]
-    if environment.get("commit"):
-        told.append(f"commit {environment['commit']}{dirty}")
+    if commits := run.plan.commits:
+        told.append(f"commit{'s' if len(commits) > 1 else ''} {wording.listed(commits)}")
     return " · ".join(told)

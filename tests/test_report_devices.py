@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from harness.merging.merge import merge
+from harness.results.store import Store
+from reports import report
 from reports.analysis import across, derive
 from reports.content import Figure, Matrix, Table, Text
 from reports.drawing import style
@@ -16,7 +18,7 @@ from reports.parts.last_page import environment, rerun
 from reports.place import place
 from reports.reading import load
 from reports.reading.run import Run
-from tests.machine_runs import row_of, write
+from tests.machine_runs import plan_of, row_of, write
 
 VARIANTS = ("ray_march", "newton[EPSILON=0.001]", "newton[EPSILON=1e-06]")
 
@@ -35,6 +37,9 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
         if machine == "lab2":
             rows[-1]["accuracy"] |= {"misses": 5}
         runs.append(write(folder / machine, rows, machine=machine))
+        told = plan_of(runs[-1])
+        told["environment"] |= {"commit": "abc1234" if machine == "lab1" else "def5678", "dirty": machine == "lab2"}
+        Store(runs[-1]).write_plan({k: v for k, v in told.items() if k not in ("checksum", "format")})
     merge(runs, folder / "all", "firsthit merge lab1 lab2 -o runs/all")
     return load.load(folder / "all")
 
@@ -82,6 +87,8 @@ def test_a_merged_run_says_of_what_it_is_made(run: Run) -> None:
     material = SimpleNamespace(run=run, frame=run.frame)
     code, _ = rerun.blocks(material)
     lines = code.text.splitlines()
+    assert [line for line in lines if "git checkout" in line] == ["git checkout abc1234", "git checkout def5678"]
+    assert "commits abc1234 and def5678 with uncommitted changes" in report._subtitle(run)
     assert lines.count("firsthit run configs/quick.toml") == 2 and "# on lab2" in lines
     assert lines[-2:] == ["firsthit merge lab1 lab2 -o runs/all", "firsthit report runs/all"]
 

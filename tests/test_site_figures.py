@@ -93,13 +93,17 @@ def test_rows_of_a_merged_run_are_of_the_machine_that_made_them(tmp_path):
         rows = machine_runs.usual(machine=name, processor=f"Processor {name}", driver=driver)
         made.append(machine_runs.write(tmp_path / name, rows, machine=name))
         told = machine_runs.plan_of(made[-1])
-        told["environment"] |= {"cpu": f"Processor {name}"}
+        told["environment"] |= {"cpu": f"Processor {name}", "commit": f"of-{name}", "dirty": name == "lab2"}
         Store(made[-1]).write_plan({k: v for k, v in told.items() if k not in ("checksum", "format")})
     merge.merge(made, tmp_path / "all", "firsthit merge …")
     found = gather.gather([tmp_path / "all"])
     pairs = set(zip(found.frame["device"], found.frame["processor"], strict=True))
     assert pairs == {(f"opencl:intel@{name}", f"Processor {name}") for name in ("lab1", "lab2")}
-    assert found.parts[0].machine == "Processor lab1 and Processor lab2"
+    part = found.parts[0]
+    assert part.machine == "Processor lab1 and Processor lab2"
+    assert part.commit == "of-lab1 and of-lab2 with uncommitted changes"
+    again = cells.commands(part, "opencl:intel@lab2")
+    assert again[0] == "git checkout of-lab2" and again[-1].endswith("--device opencl:intel"), "as it is called there"
     with_one = gather.gather([tmp_path / "all", tmp_path / "lab2"])
     assert with_one.frame["processor"].nunique() == 2, "a run of one of them adds no machine"
 

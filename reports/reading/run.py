@@ -53,6 +53,13 @@ class Plan:
         return f", shard {self.shard[0]} of {self.shard[1]}" if self.shard else ""
 
     @property
+    def commits(self) -> tuple[str, ...]:
+        """Write the commit of each run that went into this one, or its own, each once, and whether it was changed."""
+        told = [(one.get("commit"), one.get("dirty")) for one in self.merged or (self.environment,)]
+        each = (f"{commit}{' with uncommitted changes' if dirty else ''}" for commit, dirty in told if commit)
+        return tuple(dict.fromkeys(each))
+
+    @property
     def peaks(self) -> dict[str, float]:
         """Return the rate of float32 multiply-adds that each device's probe measured, in 1e9 operations per second."""
         probed = ((device.get("name"), device.get("probes")) for device in self.devices)

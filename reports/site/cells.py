@@ -187,11 +187,13 @@ def reproduce(part: Part, device: str) -> Html:
 def commands(part: Part, device: str = "") -> list[str]:
     """Return the commands that make a run again, on one device or on all of its config."""
     config = part.plan.config
-    lines = [f"git checkout {part.plan.environment['commit']}"] if part.plan.environment.get("commit") else []
+    own, _, machine = device.partition("@") if part.plan.merged else (device, "", "")  # lab2, of opencl:nvidia@lab2
+    of = [run for run in part.plan.merged if run["machine"] == machine] or part.plan.merged or [part.plan.environment]
+    lines = [f"git checkout {of[0]['commit']}"] if of[0].get("commit") else []
     if PurePath(config).is_absolute():
         config = PurePath(config).name
         lines.append(f"# save the config, which is on the page of this run, as {config}")
     outside = sorted({str(told["outside"]) for told in part.plan.methods.values() if told.get("outside")})
     plugins = ["--plugins", str(PurePath(outside[0]).parent)] if outside else []
-    on = ["--device", device] if device else []
+    on = ["--device", own] if own else []
     return [*lines, "make .venv/ready", shell([".venv/bin/firsthit", "run", config, *plugins, *on])]

@@ -47,10 +47,8 @@ class Part:
 
     @property
     def commit(self) -> str:
-        """Write the commit, and whether it was changed; a dash where the plan does not tell."""
-        found = self.plan.environment.get("commit")
-        dirty = " with uncommitted changes" if self.plan.environment.get("dirty") else ""
-        return f"{found}{dirty}" if found else wording.NONE
+        """Write the commits (Plan.commits); a dash where the plan does not tell."""
+        return wording.listed(self.plan.commits) or wording.NONE
 
 
 @dataclass(frozen=True, eq=False)

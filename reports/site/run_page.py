@@ -69,7 +69,7 @@ def body(site: Site, part: Part) -> list[Html]:
     plan = part.plan
     missing = f"{wording.plural(part.not_run, 'planned cell')} had not run." if part.not_run else ""
     made: list[Html | None] = [
-        tag("p", "Made on ", day(plan.created), f" on {part.machine}, at commit {part.commit}.", class_="lead"),
+        tag("p", "Made on ", day(plan.created), f" on {part.machine}, commit {part.commit}.", class_="lead"),
         tag("p", f"On the leaderboard: {_shows(site, part)}. {missing}"),
         _elsewhere(part),
         _surfaces(site, part),
@@ -117,7 +117,8 @@ def _environment(plan: Plan) -> Html:
     if isinstance(packages, Mapping):
         told["packages"] = ", ".join(f"{name} {version}" for name, version in packages.items())
     lines = [Line((name, wording.text(value))) for name, value in {"config": plan.config, **told}.items()]
-    return table("The machine and the software.", (Head("fact"), Head("value")), lines)
+    whose = " of the first of its runs" if plan.merged else ""
+    return table(f"The machine and the software{whose}.", (Head("fact"), Head("value")), lines)
 
 
 def _failures(part: Part) -> Html | None:

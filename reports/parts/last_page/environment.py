@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from reports import wording
@@ -22,8 +23,8 @@ def _merged(plan: Plan) -> Table:
     body = []
     for one in plan.merged:
         shard = f"{one['shard']['number']} of {one['shard']['of']}" if "shard" in one else None
-        commit = f"{one.get('commit') or wording.NONE}{' with uncommitted changes' if one.get('dirty') else ''}"
-        body.append((one["run"], one["machine"], shard, commit, one["created"][:16].replace("T", " ")))
+        commits = wording.listed(replace(plan, merged=(one,)).commits) or wording.NONE
+        body.append((one["run"], one["machine"], shard, commits, one["created"][:16].replace("T", " ")))
     columns = (Column("run", stretch=1), Column("machine"), Column("shard"), Column("commit"), Column("made"))
     kept = [i for i in range(len(columns)) if any(not wording.absent(row[i]) for row in body)]
     lines = [tuple(row[i] for i in kept) for row in body]
@@ -62,14 +63,16 @@ def _devices(plan: Plan) -> Table:
 def _made_with(plan: Plan) -> str:
     """Write in a sentence or two which machine and which software the run was made with."""
     told = plan.environment
-    dirty = " with uncommitted changes" if told.get("dirty") else ""
-    commit = f"commit {told['commit']}{dirty}" if told.get("commit") else ""
+    commit = f"commit {wording.listed(replace(plan, merged=()).commits)}" if told.get("commit") else ""
     own = [f"firsthit {told.get('firsthit') or ''}".strip(), commit]
     versions = [f"{name} {version}" for name, version in _pairs(told.get("versions"))]
     python = f"Python {told['python']}" if told.get("python") else ""
     software = ", ".join(filter(None, (*own, python, *versions)))
     machine = ", ".join(filter(None, (told.get("cpu"), told.get("platform"))))
     where = f" on {machine}" if machine else ""
+    if plan.merged:
+        newest = plan.created[:16].replace("T", " ")
+        return f"The newest of the runs that were merged was made on {newest}, the first by {software}{where}."
     return f"Made on {plan.created[:16].replace('T', ' ')} by {software}{where}."
 
 
@@ -116,12 +119,13 @@ def _two_digits(value: Any) -> str:
 
 def _environment(plan: Plan) -> Table:
     """Make a line for each fact about the machine and the software that the run was made with."""
-    told = {name: value for name, value in plan.environment.items() if name != "versions"}
-    if told.pop("dirty", False):
-        told["commit"] = f"{told.get('commit')} with uncommitted changes"
+    told = {name: value for name, value in plan.environment.items() if name not in ("versions", "dirty")}
+    if commits := replace(plan, merged=()).commits:
+        told["commit"] = commits[0]
     versions = ", ".join(f"{name} {version}" for name, version in _pairs(plan.environment.get("versions")))
     body = [("config", plan.config), ("created", plan.created), *told.items(), ("packages", versions or None)]
-    return Table((Column(""), Column("")), body, "The machine and software of this run.")
+    whose = "the first of the runs that were merged" if plan.merged else "this run"
+    return Table((Column(""), Column("")), body, f"The machine and software of {whose}.")
 
 
 def _pairs(versions: Any) -> list[tuple[str, str]]:

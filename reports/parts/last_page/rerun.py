@@ -19,11 +19,13 @@ LINE = 100  # characters of a line of a command, which the page must not break
 def blocks(material: Material) -> tuple[Block, ...]:
     """Give the commands to copy, and say what the commit does not hold."""
     plan = material.run.plan
-    commit = str(plan.environment.get("commit") or "")
-    lines = [f"git checkout {commit}"] if commit else []
-    lines.append("make .venv/ready")
+    at = str((plan.merged or (plan.environment,))[0].get("commit") or "")
+    lines = [*_checkout(at), "make .venv/ready"]
     for one in plan.merged:
-        lines += [f"# on {' '.join(str(one['machine']).split())}", str(one["command"])]
+        other = str(one.get("commit") or at)
+        lines += [f"# on {' '.join(str(one['machine']).split())}", *_checkout(other if other != at else "")]
+        lines.append(str(one["command"]))
+        at = other
     reports = plan.command.startswith("firsthit report ")  # it joins runs by itself
     lines += [plan.command, *([] if reports else [f"firsthit report {shlex.quote(_folder(plan))}"])]
     told = (
@@ -32,11 +34,15 @@ def blocks(material: Material) -> tuple[Block, ...]:
     )
     dirty = (
         "The run was made with uncommitted changes, which the commit does not hold."
-        if plan.environment.get("dirty")
+        if any(one.get("dirty") for one in plan.merged or (plan.environment,))
         else ""
     )
     texts = filter(None, (told, dirty, _plugins(material), _config(plan)))
     return (Code("\n".join(line if line[0] == "#" else folded(line) for line in lines)), Text(" ".join(texts)))
+
+
+def _checkout(commit: str) -> list[str]:
+    return [f"git checkout {commit}"] if commit else []
 
 
 def folded(command: str) -> str:
