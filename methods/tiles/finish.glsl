@@ -42,7 +42,7 @@ void finish_tiles(Work work, Frame frame) {
     int parts = min(FINISH_PARTS, blocks);  // of a tile, each taken by itself
     total = parts * total;
     for (int turn = 0;; turn++) {
-        int taken = next_tile(work, TAKEN + 8 + work.level, turn);
+        int taken = next_tile(work, TAKEN + 8 + work.level, total, turn);
         if (taken >= total) break;
         int slot = taken / parts;
         int first = (taken % parts) * (blocks / parts);

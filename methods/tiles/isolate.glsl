@@ -170,7 +170,7 @@ void isolate_tiles(Work work, Frame frame) {
     int all_fits = 0;
     int all_pieces = 0;
     for (int turn = 0;; turn++) {
-        int number = next_tile(work, TAKEN + work.level, turn);
+        int number = next_tile(work, TAKEN + work.level, total, turn);
         if (number >= total) break;
         Taken taken = taken_tile(work, number);
         if (taken.x >= across || taken.y >= across) continue;

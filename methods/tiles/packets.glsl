@@ -9,7 +9,7 @@ void cast_packets(Work work, Frame frame) {
     int all_fits = 0;
     int all_pieces = 0;
     for (int turn = 0;; turn++) {
-        int taken = next_tile(work, TAKEN + 16, turn);
+        int taken = next_tile(work, TAKEN + 16, total, turn);
         if (taken >= total) break;
         int slot = taken / (blocks * blocks);
         int block = taken % (blocks * blocks);

@@ -2,11 +2,8 @@
 // Answers that all pixels of a tile miss.
 void answer_empty(Work work, int i0, int j0, int evaluations) {
     int word = answer_word(MISS, work.level, evaluations);
-    for (int j = j0; j < min(j0 + work.tile, work.size); j++) {
-        for (int i = i0; i < min(i0 + work.tile, work.size); i++) {
-            set_answer(work, j * work.size + i, word);
-        }
-    }
+    int width = min(work.tile, work.size - i0);
+    for (int j = j0; j < min(j0 + work.tile, work.size); j++) set_answers(work, j * work.size + i0, width, word);
 }
 
 // Lists one more single tile, and returns where its record begins in `entries`.

@@ -86,10 +86,16 @@ void leave_pixels(Work work, int i0, int j0, yes which, wide from) {
     real depths[16];
     vstore16(int_lanes(which), 0, marks);
     vstore16(from, 0, depths);
+    int count = 0;
     for (int k = 0; k < 16; k++) {
-        int i = i0 + (k & 3);
-        int j = j0 + (k >> 2);
-        if (marks[k] != 0 && i < work.size && j < work.size) leave_pixel(work, j * work.size + i, depths[k]);
+        marks[k] = marks[k] != 0 && i0 + (k & 3) < work.size && j0 + (k >> 2) < work.size ? 1 : 0;
+        count += marks[k];
+    }
+    int slot = atomic_add(&work.counts[LEFT], count);
+    for (int k = 0; k < 16; k++) {
+        if (marks[k] == 0) continue;
+        leave_in(work, slot, (j0 + (k >> 2)) * work.size + i0 + (k & 3), depths[k]);
+        slot += 1;
     }
 }
 
@@ -116,5 +122,19 @@ WideRay with_listed(Work work, int i0, int j0, WideRay rays) {
     return result;
 }
 
-#define next_tile(work, counter, turn) next_in(work, counter)
+// Returns the next of `total` tiles that a work item is to do. It takes several at once, since a counter that processors
+// share is slow, but few enough that no other one waits long in the end.
+#define MOST_AT_ONCE 16
+#define next_tile(work, counter, total, turn) next_taken(&(work), counter, total)
+
+int next_taken(Work *work, int counter, int total) {
+    if (work->left == 0) {
+        work->left = clamp(total / (4 * work->items), 1, MOST_AT_ONCE);
+        work->taken = atomic_add(&work->counts[counter], work->left);
+    }
+    work->left -= 1;
+    work->taken += 1;
+    return work->taken - 1;
+}
+
 #define LEADS true

@@ -1,5 +1,5 @@
 // What a stage writes and reads where a work item has one lane, `work.lane`, of the sixteen that share a tile or a block.
-#define next_tile(work, counter, turn) ((work).item + (turn) * (work).items)
+#define next_tile(work, counter, total, turn) ((work).item + (turn) * (work).items)
 
 // Answers the lane's pixel of the block at (i0, j0): a hit at shift + t where `hit`, else a miss.
 void answer_block(Work work, int i0, int j0, real shift, real t, bool hit, int stage, int evaluations) {

@@ -9,8 +9,16 @@
 #define NOT(a) (~(a))
 #define NOWHERE ((yes)(0))
 #define CHOOSE(mask, a, b) select(b, a, mask)
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or) && __has_builtin(__builtin_reduce_and)
+#define any_lane(mask) (__builtin_reduce_or(mask) != 0)
+#define all_lanes(mask) (__builtin_reduce_and(mask) != 0)
+#endif
+#endif
+#ifndef any_lane
 #define any_lane(mask) (any(mask) != 0)
 #define all_lanes(mask) (all(mask) != 0)
+#endif
 #define first_lane(v) ((wide)((v).s0))
 #define first_lane_number(v) ((v).s0)
 #define lane_row(name, k) vload16(k, name)

@@ -78,12 +78,15 @@ void enter_single_end(Work work, int record, int behind, int share) {
     enter(work, record + 38, real(share));
 }
 
-// Puts a pixel on the list of those that the last stage casts, from a depth on.
-void leave_pixel(Work work, int place, real from) {
+// Puts a pixel in a place of the list of those that the last stage casts, from a depth on.
+void leave_in(Work work, int slot, int place, real from) {
     int before = tiles_before(work.size, TILE >> LEVELS);
-    int slot = next_in(work, LEFT);
     enqueue(work, QUEUE_RECORD * before + slot, place);
     enter(work, (OPEN_RECORD + SINGLE_RECORD) * before + slot, from);
+}
+
+void leave_pixel(Work work, int place, real from) {
+    leave_in(work, next_in(work, LEFT), place, from);
 }
 
 // Puts a tile on its level's list of open ones.

@@ -5,10 +5,12 @@
 
 // Where sixteen work items share a tile, `lane` is the one that this one has. Where tiles are not taken from a counter,
 // `item` is which of the `items` that take tiles it is, or its group. `numbers` and `bits`: what its group shares.
+// `taken`: the next of the tiles that it took last, of which it has `left` to do.
 typedef struct Work {
     __global const float *camera; __global real *t; __global int *answer; __global int *queue; __global int *counts;
     __global real *entries; __global const real *fourths; __global const float *rays;
     int size; int tile; int level; int ratio; int lane; int item; int items; __local real *numbers; __local int *bits;
+    int taken; int left;
 } Work;
 
 // What the kernel of a stage takes, and what it hands on; TILE_ITEMS work items share a tile or a pixel.
@@ -17,7 +19,7 @@ typedef struct Work {
               int nx, int ny, int size, int tile, int level, int ratio
 #define WORK {camera, t, answer, queue, counts, entries, fourths, rays, size, tile, level, ratio, \
               (int)get_global_id(0) % 16, (int)get_global_id(0) / TILE_ITEMS, (int)get_global_size(0) / TILE_ITEMS, \
-              numbers, bits}
+              numbers, bits, 0, 0}
 
 real camera_at(Work work, int place) { return work.camera[place]; }
 int counted(Work work, int counter) { return work.counts[counter]; }
@@ -32,6 +34,13 @@ void enter(Work work, int place, real value) { work.entries[place] = value; }
 void set_t(Work work, int place, real value) { work.t[place] = value; }
 void set_answer(Work work, int place, int word) { work.answer[place] = word; }
 int answered(Work work, int place) { return work.answer[place]; }
+
+// Gives `count` neighbouring pixels of a row the same answer.
+void set_answers(Work work, int place, int count, int word) {
+    int k = 0;
+    for (; k + 8 <= count; k += 8) vstore8((int8)(word), 0, work.answer + place + k);
+    for (; k < count; k++) work.answer[place + k] = word;
+}
 
 #ifndef RESERVED
 #define RESERVED __local real *numbers = 0; __local int *bits = 0;

@@ -38,3 +38,8 @@ void enter(Work work, int place, real value) { entries[place] = value; }
 void set_t(Work work, int place, real value) { t[place] = value; }
 void set_answer(Work work, int place, int word) { answer[place] = word; }
 int answered(Work work, int place) { return answer[place]; }
+
+// Gives `count` neighbouring pixels of a row the same answer.
+void set_answers(Work work, int place, int count, int word) {
+    for (int k = 0; k < count; k++) answer[place + k] = word;
+}
