@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -104,14 +105,14 @@ def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-def write_run(folder: Path) -> Path:
-    """Write a run of 120 planned cells into `folder`, and return the folder.
+def write_run(folder: Path, surfaces: Collection[str] = tuple(SURFACES)) -> Path:
+    """Write a run of 40 planned cells for each of three surfaces, or of `surfaces`, into `folder`; return the folder.
 
     Cells are ok, skipped, failed, timed out and crashed; two have not run, and two are unreadable.
     """
     cells = [
         troubled(cell(variant, surface, device, precision))
-        for surface in SURFACES
+        for surface in surfaces
         for device in DEVICES
         for precision in ("float32", "float64")
         for variant in VARIANTS

@@ -19,24 +19,25 @@ LONG = "newton[EPSILON=0.001,MAX_EVALUATIONS=200,STEP_BOUND=0.15] barth_sextic o
 NAMES = (LONG, "曲面法 トーラス 正面 64x64x1 float32 compute", "e\u0301toile\u0301 sphere 64x64x1 float32 compute")
 RUN = """
 import fcntl, struct, sys, termios, time
-from harness import console
+from harness import console, terminal
 from harness.terminal import SCREEN
+terminal.LIVE_SECONDS = 0.04
 names, resized = {names!r}, {resized!r}
 devices = {{"opencl:intel": 3, "opengl:llvmpipe": 3}}
 with console.doing("preparing devices and cells, which is a line of more than sixty characters") as tell:
     for i in range(3):
         tell("preparing [%d/3] %s" % (i, names[0]))
-        time.sleep(0.25)
+        time.sleep(0.05)
 progress = console.Progress(6, 10.0, devices)
 for i, name in enumerate(names):
     for device in devices:
         progress(name + " " + device, None)
-        time.sleep(0.25)
+        time.sleep(0.05)
         if resized and i == 1:
             fcntl.ioctl(2, termios.TIOCSWINSZ, struct.pack("HHHH", 24, resized, 0, 0))
             sys.stderr.write("\\x1b]2;columns=%d\\x07" % resized)
             sys.stderr.flush()
-            time.sleep(0.25)
+            time.sleep(0.05)
         time.sleep({sleeps!r})
         row = {{"status": "failed", "reason": "no\\nway", "time": None}} if i == 2 else {{
             "status": "ok", "reason": None, "time": {{"median_ms": 1.5, "warnings": ["noisy: very", "drifts: far"]}}}}
@@ -172,7 +173,7 @@ def test_quiet_tells_errors(tmp_path, capsys):
 
 
 def test_a_report_says_what_it_does_and_where_it_is(tmp_path, capsys, monkeypatch):
-    write_run(tmp_path / "run")
+    write_run(tmp_path / "run", ["torus"])
     monkeypatch.setattr(terminal, "FIRST_SECONDS", 0.0)
     monkeypatch.setattr(terminal, "NEXT_SECONDS", 0.0)
     assert cli.main(["report", str(tmp_path / "run")]) == 0

@@ -132,6 +132,16 @@ LEANS were chosen on nine of these surfaces in this view.
       value of f and another by a mean                      %), 0.77 to 0.76 (largest)
     rays that keep their depth as parameter, and have no    torus and clebsch, busy machine: refinement 0.96    no
       direction of length 1                                 and 0.98 of the time
+    PAIRS = 16 in place of 8 (this row and the next four:   six surfaces: 1.01 times the time; errors over      yes
+      a Xeon with AVX-512, interleaved)                     bernstein's in 60 views: 0.80 to 0.76 (99.9 %),
+                                                            0.87 to 0.77 (largest)
+    PAIRS = 32                                              1.03 times the time; 0.74 and 0.73                  no
+    a work item takes up to 16 tiles from the counter that  torus: isolation 0.75, frame 0.88 times the time;   yes
+      all share, and empty tiles are answered by vectors    octic's frame 0.95
+    whether a mask holds in any lane is asked by the        torus and octic, with the row before: frame 0.81    yes
+      compiler's own reduction (kortest), not by OpenCL's   and 0.87 times the time; octic's packets alone
+      any and all (a tree of shuffles)                      0.77
+    largest and sum of lanes by halves, not by memory       three surfaces: as fast                             no
     PACKET_FITS = 2, 3 and 6                                0.95 to 1.08, 0.93 to 1.06, 0.99 to 1.04            no
     packets fitted from the tile's net, by restriction      not built: sampling and fitting each block twice    no
                                                             makes the packets' stage 1.09 times as long at
@@ -222,7 +232,9 @@ METHOD = Method(
             "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the "
             "domain's diameter",
         ),
-        Parameter("PAIRS", 8, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"),
+        Parameter(
+            "PAIRS", 16, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"
+        ),
         Parameter(
             "APART",
             4.0,

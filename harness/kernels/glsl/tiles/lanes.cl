@@ -9,6 +9,7 @@
 #define NOT(a) (~(a))
 #define NOWHERE ((yes)(0))
 #define CHOOSE(mask, a, b) select(b, a, mask)
+// OpenCL's any and all make vectors of masks and shuffle them; a compiler that reduces masks asks all lanes at once.
 #if defined(__has_builtin)
 #if __has_builtin(__builtin_reduce_or) && __has_builtin(__builtin_reduce_and)
 #define any_lane(mask) (__builtin_reduce_or(mask) != 0)
