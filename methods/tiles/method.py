@@ -35,44 +35,47 @@ only.
 
 **Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
 
-**Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an AMD processor
-without AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run
-of four sizes at 1fe7ee7, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures.
-16,384 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and
-eft_yuksel; newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays.
-Ratios are of the rounds that timed both, and times are medians of all rounds. So the 16-ball's ratios are smaller than
-those of its times: once the slower methods had ended, its frame took 21 ms in place of 32.
+**Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an Intel Xeon with
+AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run of four
+sizes at 944c09f, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384
+rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel;
+newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays. Ratios are
+of the rounds that timed both, and times are medians of all rounds.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
-    clebsch       4.62   17.3       13.0        8.08    3.48            2.57             0.542
-    tangle        6.20   25.3       19.7        12.7    4.00            3.16             0.723
-    torus         6.64   25.8       21.6        9.27    3.83            3.12             0.531
-    Kummer        9.22   28.4       23.2        15.9    3.23            2.60             0.884
-    flirt         7.22   24.6       19.3        12.4    3.67            2.75             0.99
-    calyx         10.7   28.7       26.5        15.4    2.69            2.53             0.565
-    Barth sextic  9.08   34.2       49.4        18.8    3.73            5.14             0.759
-    Klein bottle  6.89   28.4       41.7        15.4    4.03            5.66             0.737
-    heart         6.82   26.6       38.9        17.0    3.87            5.60             0.742
-    chmutov       14.3   34.6       60.7        10.6    2.33            4.18             0.352
-    Endraß octic  34.3   84.9       135         29.6    2.35            3.76             0.909
-    Barth decic   36.0   99.3       195         36.6    2.83            5.12             0.596
-    16-ball       21.2   145        453         15.1    4.34            13.9             1.07
+    clebsch       3.05   10.4       9.8         5.64    3.21            3.03             0.599
+    tangle        4.16   15.6       15          9.68    3.57            3.46             0.723
+    torus         3.77   11         11.9        4.73    2.87            3.12             0.529
+    Kummer        6.68   22.2       18.9        10.7    3.25            2.83             0.674
+    flirt         4.8    15.7       15.3        9.44    3.29            3.22             0.99
+    calyx         6.94   16.6       17.9        11      2.41            2.57             0.472
+    Barth sextic  6.79   21         28.2        14      3.15            4.31             1.06
+    Klein bottle  4.24   16.2       21.6        11.4    3.84            5.11             0.935
+    heart         5.47   17.3       24.6        12.2    3.17            4.49             0.742
+    chmutov       9.87   19.5       32          7.98    2.09            3.42             0.467
+    Endraß octic  19.9   41.1       71          22.5    2.06            3.69             0.711
+    Barth decic   18.6   41.7       89.1        24.3    2.39            5.11             0.533
+    16-ball       17     72.6       235         13.1    4.12            13.8             1.07
 
 The larger the frame, the more it gains. Geometric means of the thirteen surfaces:
 
     pixels     over bernstein  least of them  over eft_yuksel  over newton
     ---------  --------------  -------------  ---------------  -----------
-    512x512    2.29            1.66           2.75             0.92
-    1024x1024  3.35            2.33           4.07             1.35
-    2048x2048  4.06            2.99           5.04             1.71
-    4096x4096  4.31            3.16           5.42             1.80
+    512x512    2.02            1.43           2.65             1.06
+    1024x1024  2.97            2.06           4.00             1.57
+    2048x2048  3.78            2.80           5.21             2.03
+    4096x4096  4.40            3.42           5.70             2.60
 
-Its time grows as the pixels to the power 0.83 in the mean (0.71 Barth decic to 0.94 torus), bernstein's to the power
-0.98. 88 of the run's 260 cells were told to be noisy.
+Its time grows as the pixels to the power 0.76 in the mean (0.65 16-ball to 0.86 torus), bernstein's to the power 0.95.
+37 of the run's 260 cells drifted and 7 were noisy. On two cores of an AMD processor without AVX-512 the means
+over bernstein were 2.29, 3.35, 4.06 and 4.31 at these sizes, and over eft_yuksel 2.75, 4.07, 5.04 and 5.42, at 1fe7ee7,
+before the rows "a work item takes" and "whether a mask holds" below.
 
-On opencl:pocl configs/tiles-1024.toml gave 3.97 over bernstein (3.04 octic to 7.16 16-ball), 4.44 over eft_yuksel and
-1.61 over newton, in two sittings at 27d91c5; no clear ray of tiles, bernstein and eft_yuksel is wrong.
+On opencl:pocl, there too, configs/tiles-1024.toml gave 11.8 over bernstein (8.05 octic to 16.6 tangle), 14.3 over
+eft_yuksel and 6.07 over newton. At a8430e6, before these two rows, configs/tiles.toml gave 13.9 over bernstein (9.05 at
+least) and 17.0 over eft_yuksel at 2048x2048, and 16.4 (11.2) and 19.8 at 4096x4096. No clear ray of tiles, bernstein
+and eft_yuksel is wrong.
 
 What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
 LEANS were chosen on nine of these surfaces in this view.
