@@ -75,3 +75,12 @@ def test_every_page_is_in_the_guides_contents():
     contents = (ROOT / "docs" / "index.md").read_text(encoding="utf-8").splitlines()
     pages = {path.stem for path in (ROOT / "docs").glob("*.md")} - {"index"}
     assert pages <= set(contents)
+
+
+@pytest.mark.parametrize("page", sorted(ROOT.glob("docs/*.md")), ids=lambda page: page.stem)
+def test_what_a_table_says_of_all_its_rows_is_their_sum(page):
+    for table in re.findall(r"^\|[-| ]+\|\n((?:\|.*\|\n)+)", page.read_text(encoding="utf-8"), re.M):
+        *rows, last = ([cell.strip().replace(",", "") for cell in row.split("|")[1:-1]] for row in table.splitlines())
+        for k, cell in enumerate(last):
+            if last[0] == "all" and cell.isdigit():
+                assert int(cell) == sum(int(row[k]) for row in rows), (page.name, k)
