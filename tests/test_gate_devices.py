@@ -81,6 +81,7 @@ def test_an_unchanged_tree_passes_on_the_other_device(gated):
     assert (code, out.splitlines()[-1].startswith("4 pass")) == (0, True), out + err
 
 
+@pytest.mark.parametrize("gated", ["with other last bits"], indirect=True)  # the one with more slack
 def test_a_loosened_threshold_is_caught_on_the_other_device(gated):
     _plant(gated.plugins, "mine", "method.py", '"EPSILON",\n            0.001,', '"EPSILON", 0.05,')
     code, out, _ = gated()
@@ -89,6 +90,7 @@ def test_a_loosened_threshold_is_caught_on_the_other_device(gated):
     assert _row(out, "theirs", "error_p99") is None
 
 
+@pytest.mark.parametrize("gated", ["with other last bits"], indirect=True)  # the one with more slack
 def test_a_dropped_root_is_caught_on_the_other_device(gated):
     drop = "Hit first_hit(Ray ray, real t0, real t1) {\n    t0 = t0 + 0.5 * (t1 - t0);"
     _plant(gated.plugins, "theirs", "kernel.glsl", "Hit first_hit(Ray ray, real t0, real t1) {", drop)
@@ -98,6 +100,7 @@ def test_a_dropped_root_is_caught_on_the_other_device(gated):
     assert _row(out, "mine", "misses") is None
 
 
+@pytest.mark.parametrize("gated", ["with other last bits"], indirect=True)  # the one with more slack
 def test_one_more_evaluation_a_ray_is_caught_on_the_other_device(gated):
     _plant(gated.plugins, "mine", "kernel.glsl", "hit.evaluations = 1;", "hit.evaluations = 2;")
     code, out, _ = gated()

@@ -157,7 +157,7 @@ def test_a_second_run_reuses_every_cell_and_force_repeats_them(config, finished)
 
 @pytest.mark.usefixtures("no_cache")
 def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config):
-    path, runs = config(seconds=0.6), tmp_path / "runs"
+    path, runs = config(seconds=0.4), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
     cells_folder = runs / "t" / "cells"
     stop_when(process, lambda: is_timing(runs / "t", rows=3))
@@ -189,7 +189,7 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
 
 @pytest.mark.usefixtures("no_cache")
 def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
-    path, runs = config(seconds=0.6), tmp_path / "runs"
+    path, runs = config(seconds=0.4), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
     stop_when(process, lambda: is_timing(runs / "t", rows=4))  # a worker that is lost before costs no cell
     victims = workers(process.pid)
@@ -208,7 +208,7 @@ def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
 
 
 def test_interrupting_keeps_what_is_finished(tmp_path, config):
-    path, runs = config(seconds=0.6), tmp_path / "runs"
+    path, runs = config(seconds=0.4), tmp_path / "runs"
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.PIPE, text=True)
     cells_folder = runs / "t" / "cells"
     wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 1)
