@@ -77,10 +77,16 @@ def test_a_device_that_is_no_processor_has_lanes_of_its_own():
     assert chosen == ["warp", "group", "group", "vector", "own"]
 
 
-def test_a_stage_is_made_of_the_kernel_and_of_its_own_file_and_of_no_other_stages():
+def test_a_stage_is_made_of_the_kernel_and_of_its_own_files_and_of_no_other_stages():
     plugin = find_methods().get("tiles")
     given = plugin.method, plugin.folder, plugin.variant({}), surfaces.get("torus"), "float32", "cl"
-    for stage in ("isolate", "finish", "packets"):
+    files = {
+        "isolate": ["kernel", "isolate"],
+        "finish": ["kernel", "correct", "refine", "finish"],
+        "packets": ["kernel", "correct", "refine", "packets"],
+        "rest": ["correct", "rest"],
+    }
+    for stage in files:
         program = method_program(*given, stage)
         own = [section.origin for section in program.sections if section.origin.startswith("methods/tiles/")]
-        assert own == ["methods/tiles/kernel.glsl", f"methods/tiles/{stage}.glsl"]
+        assert own == [f"methods/tiles/{name}.glsl" for name in files[stage]]

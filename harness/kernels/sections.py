@@ -35,6 +35,12 @@ AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's ta
 # them have one each, and are a work group or half a warp.
 Lanes = Literal["vector", "own", "group", "warp"]
 TileStage = Literal["isolate", "finish", "packets", "rest"]  # of a frame of tiles, each a program of its own
+STAGE_FILES: dict[TileStage, tuple[str, ...]] = {  # of a method's folder, those that stand behind kernel.glsl
+    "isolate": ("isolate",),
+    "finish": ("correct", "refine", "finish"),
+    "packets": ("correct", "refine", "packets"),
+    "rest": ("correct", "rest"),
+}
 
 
 @cache
@@ -197,8 +203,8 @@ def method_sections(
     """Return the method's own sections, which come after the surface's: its knobs, tables, late libraries and kernel.
 
     If `loose`, knobs that state `per` may be loosened, see `_parameter_section`. If a `stage` of tiles is given, the
-    file of the folder that is named as the stage stands behind the kernel, where there is one. Raises FirsthitError
-    with exit code 3 where a function of these files calls itself.
+    folder's STAGE_FILES of it stand behind the kernel. Raises FirsthitError with exit code 3 where a function of these
+    files calls itself.
     """
     loosened = {p.name: p for p in method.parameters if p.per} if loose else None
     sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
@@ -206,13 +212,20 @@ def method_sections(
         tables = method.tables(surface, dict(variant.parameters), precision)
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
     sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
-    own = [folder / "kernel.glsl"]
-    if stage and (folder / f"{stage}.glsl").exists():
-        own.append(folder / f"{stage}.glsl")
-    texts = [file_section(path) for path in own]
+    return [*sections, *_own_files([folder / "kernel.glsl"]), *(stage_sections(folder, stage) if stage else [])]
+
+
+def stage_sections(folder: Path, stage: TileStage) -> list[Section]:
+    """Return those of STAGE_FILES of a stage that are in the folder. Raises FirsthitError as `method_sections` does."""
+    return _own_files([path for name in STAGE_FILES[stage] if (path := folder / f"{name}.glsl").exists()])
+
+
+def _own_files(paths: Iterable[Path]) -> list[Section]:
+    """Return files of a method as sections. Raises FirsthitError, with exit code 3, where a function calls itself."""
+    texts = [file_section(path) for path in paths]
     if complaint := next(filter(None, map(recursion, texts)), None):
         raise FirsthitError(str(complaint), exit_code=3)
-    return [*sections, *texts]
+    return texts
 
 
 def beam_sections(

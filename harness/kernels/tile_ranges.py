@@ -32,7 +32,8 @@ def ranged_program(
     """Return the program of one stage; the arguments are those of harness.kernels.tiles.stage_program."""
     stated = StageText(method, folder, variant, surface, precision, language, stage, rest)
     needs = [name for name in method.needs if stage != "rest" or name != NEED]
-    own = files("tiles/lanes_one.glsl", "tiles/wide.glsl", *lists(language), "tiles/alone.glsl")
+    heads = ("tiles/lanes_one.glsl", "tiles/wide.glsl", *lists(language), "tiles/alone.glsl")
+    own = files(*heads) if stage != "rest" else []
     return stated.program(needs, _shape(precision, language, listed, stage), own)
 
 

@@ -15,6 +15,7 @@ from harness.kernels.sections import (
     kept_loops,
     method_sections,
     ray_sections,
+    stage_sections,
 )
 
 
@@ -45,7 +46,8 @@ class StageText:
         """Return the program, whose entry is named as the stage.
 
         `needs` are the functions of the surface that it calls, and `shape` has the constants that it shares with the
-        host. `own` stands before the method's text; it has what `lists` names, and is not for the stage "rest".
+        host. `own` stands before the stage's files of the method; it has what `lists` names, except for the stage
+        "rest", whose ray casting kernel comes before it.
         """
         stated = self.variant, self.surface, self.precision, self.language
         sections = ray_sections(self.surface, needs, self.precision, self.language, early_libraries(self.method))
@@ -54,7 +56,9 @@ class StageText:
         sections += [shape, *files("rays/camera.glsl")]
         if self.name == "rest":
             sections += [*method_sections(self.method, self.rest, *stated), *cast_sections("nearest")]
-            sections += files(*lists(self.language), "tiles/rest.glsl")
+            sections += [*own, *files(*lists(self.language))]
+            sections += stage_sections(self.folder, "rest") or files("tiles/rest_plain.glsl")
+            sections += files("tiles/rest.glsl")
         else:
             domain = "box" if isinstance(self.surface.domain, Box) else "sphere"
             sections += [*own, *files(f"tiles/domain_{domain}.glsl", "tiles/frame.glsl")]

@@ -24,6 +24,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness.contract import Language, Method, Precision, Program, Section, Surface, Variant
+from harness.kernels.compensated import compensated_value
 from harness.kernels.fourths import GRID, NODES, POWERS, TABLES, half_side, interpolation, remainder_factors
 from harness.kernels.sections import Lanes, TileStage, files, literal, table_section
 from harness.kernels.tile_polynomials import chosen, macros, to_control, to_powers
@@ -63,12 +64,14 @@ def stage_program(
     form: Lanes = lanes or ("vector" if language == "cl" else "own")
     stated = StageText(method, folder, variant, surface, precision, language, stage, rest)
     shape = _shape(surface, precision, language, listed, stage, form)
-    own: list[Section] = []
+    corrections = [*files("tiles/compensated.glsl"), compensated_value(surface, precision, language)]
+    own = [*files("tiles/lanes_one.glsl", "tiles/wide.glsl", "tiles/exchange_own.glsl"), *corrections]
     if stage != "rest":
         held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
         own = _lane_sections(stage, precision, language, form)
         own += [wide_value(surface, precision, language), macros(surface, precision, language, held, stage)]
         own += [*_lane_tables(precision, language, form, stage), *files(*_net_files(stage, form))]
+        own += corrections if stage != "isolate" else []
     return stated.program(("surface_value",), shape, own)
 
 

@@ -86,7 +86,7 @@ void finish_tiles(Work work, Frame frame) {
                 wide g = bicubic_value(slopes, u, v);
                 wide a = begin + start * length - slack;
                 wide b = begin + stop * length + slack;
-                Refined found = refined(work, rays, begin + root * length, a, b, g * length, looking);
+                Refined found = refined(rays, begin + root * length, a, b, g * length, looking);
                 yes hit = looking;
                 yes left = BOTH(looking, NOT(found.good));
                 yes passed = NOWHERE;

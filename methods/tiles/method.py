@@ -220,29 +220,25 @@ METHOD = Method(
         Parameter(
             "FIRST_PAIRS",
             2,
-            "pairs of samples around the root, over which the first step and the last one take the mean of f; 0: no "
-            "such steps",
+            "pairs of points around the root, over which the first step and the last one take the mean of f, 1 or more",
         ),
         Parameter(
             "FIRST_APART",
             4.0,
-            "distance between neighbouring samples of FIRST_PAIRS, but for the last pair of the first step, in unit "
-            "roundoffs of the domain's diameter",
-        ),
-        Parameter(
-            "UNCERTAIN",
-            8.0,
-            "how far f at FIRST_PAIRS may be from a line before the mean is over PAIRS, in unit roundoffs of the "
+            "distance between neighbouring points of FIRST_PAIRS, but for the last pair, in unit roundoffs of the "
             "domain's diameter",
         ),
         Parameter(
-            "PAIRS", 16, "pairs of samples around a root that is uncertain, or of a pixel that is cast by itself"
+            "UNCERTAIN",
+            2.0,
+            "how far f at FIRST_PAIRS may be from a line before it is computed with compensated arithmetic, in unit "
+            "roundoffs of the domain's diameter",
         ),
         Parameter(
-            "APART",
-            4.0,
-            "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter; of a pixel "
-            "that is cast by itself, of its ray's length in the domain",
+            "SECANT",
+            8.0,
+            "distance of the first two points of a secant through compensated values of f, in unit roundoffs of the "
+            "domain's diameter",
         ),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
@@ -255,6 +251,14 @@ METHOD = Method(
         ),
         Parameter("LEANS", 1, "1: an open tile is tried once more with nodes in planes that lean as the surface does"),
         Parameter("SHORTEST", 2.0, "shortest piece of a tile, over the tile's side"),
+        Parameter(
+            "PAIRS", 2, f"{REST} pairs of points over which bernstein's last step takes the mean of f; 0: no such step"
+        ),
+        Parameter(
+            "APART",
+            4.0,
+            f"{REST} distance of neighbouring points of PAIRS, in unit roundoffs of its ray's length in the domain",
+        ),
         Parameter("TRUSTED", 4, f"{REST} halvings of a fitted piece before what is still open is fitted anew"),
         Parameter(
             "COUNTED", 5, f"{REST} highest degree at which sign changes of coefficients and samples are compared"

@@ -138,7 +138,7 @@ void cast_packets(Work work, Frame frame) {
             wide a = rays.base + found_start * rays.length - slack;
             wide b = rays.base + (found_start + found_width) * rays.length + slack;
             wide at = rays.base + (found_start + found_width * inside.x) * rays.length;
-            Refined result = refined(work, rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
+            Refined result = refined(rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
             evaluations += result.evaluations;
             t = result.t;
             hit = BOTH(found, NOT(MORE(t, span.hi)));

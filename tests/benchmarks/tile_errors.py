@@ -6,8 +6,10 @@ and by bernstein in float32, and by bernstein in float64, which tells their erro
 hit and whose error is under MARGIN: a larger one belongs to another root.
 
 Columns: rays that count; the 99.9th percentile and the largest of the errors, in domain radii, of tiles and of
-bernstein; both of tiles over those of bernstein; the stage that answered the ray with tiles' largest error. The last
-lines sum up the ratios of all views: those of the largest errors scatter widely, since they are of one ray each.
+bernstein; both of tiles over those of bernstein; the stage that answered the ray with tiles' largest error. A frame in
+which no ray counts has no row. The last lines sum up the ratios of all views: those of the largest errors scatter
+widely, since they are of one ray each. `--pairs 16` gives bernstein another value of its knob PAIRS than its default,
+by which it is slower and more exact.
 """
 
 from __future__ import annotations
@@ -56,16 +58,25 @@ class Errors:
         return self.tiles[0] / self.bernstein[0], self.tiles[1] / self.bernstein[1]
 
 
-def compared(caster: Caster, view: View, size: int) -> Errors:
-    """Cast a frame of size x size pixels by both methods, and compare their errors."""
+def compared(caster: Caster, view: View, size: int, **knobs: float) -> Errors | None:
+    """Cast a frame of size x size pixels by both methods, and compare their errors; None if no ray counts.
+
+    `knobs` are of bernstein in float32.
+    """
     surface = caster.surface
     camera = camera_for(view, surface)
     rays = rays_of(camera, size)
-    answer, exact, own = caster.tiles(camera, rays), caster.alone("float64", rays), caster.alone("float32", rays)
+    answer, exact, own = (
+        caster.tiles(camera, rays),
+        caster.alone("float64", rays),
+        caster.alone("float32", rays, **knobs),
+    )
     counts = np.logical_and.reduce([hits.status == RayStatus.HIT for hits in (answer.hits, exact, own)])
     errors = [np.abs(hits.t - exact.t) / surface.domain.radius for hits in (answer.hits, own)]
     with np.errstate(invalid="ignore"):
         counts &= (errors[0] < MARGIN) & (errors[1] < MARGIN)
+    if not counts.any():
+        return None
     found = [(float(np.quantile(e[counts], QUANTILE)), float(e[counts].max())) for e in errors]
     worst = int(np.argmax(np.where(counts, errors[0], 0.0)))
     stage = plan_of(caster.programs[0]).stages[answer.stages[worst]]
@@ -93,17 +104,19 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--device", default="opencl:intel")
     parser.add_argument("--views", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--pairs", type=int)
     options = parser.parse_args(arguments)
     device = open_device(options.device)
     heads = [f"{what:>9}" for what in ("tiles", "largest", "bernstein", "largest")]
     print(f"{'surface':<22} {'view':<8} {'rays':>8} {' '.join(heads)} {'ratio':>6} {'ratio':>6}  stage")
     ratios = list[tuple[float, float]]()
+    knobs = {} if options.pairs is None else {"PAIRS": options.pairs}
     for surface in map(surfaces.get, options.names) if options.names else accepted():
         caster = Caster(device, surface)
         for view in random_views(options.views, options.seed) if options.views else VIEWS:
-            errors = compared(caster, view, options.size)
-            ratios.append(errors.ratios)
-            print(row(surface.name, view.name, errors), flush=True)
+            if errors := compared(caster, view, options.size, **knobs):
+                ratios.append(errors.ratios)
+                print(row(surface.name, view.name, errors), flush=True)
     print(summary(np.array(ratios)))
     return int(np.max(ratios) > 1.0)
 

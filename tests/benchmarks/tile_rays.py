@@ -99,7 +99,7 @@ class Caster:
         self.device, self.surface, self.precision = device, surface, precision
         self.programs = tuple(edit(self._program("tiles", precision, entry, **knobs)) for entry in CHECKED)
         self.built = [device.build(program) for program in self.programs]
-        self.others: dict[Precision, tuple[Program, Built]] = {}
+        self.others: dict[tuple[Precision, tuple[tuple[str, float], ...]], tuple[Program, Built]] = {}
 
     def _program(self, name: str, precision: Precision, entry: Entry, **knobs: float) -> Program:
         plugin = find_methods().get(name)
@@ -111,12 +111,13 @@ class Caster:
         frame = frame_of(self.programs, self.surface, camera, math.isqrt(len(rays)))
         return TileCheck(frame, rays, 1, np.arange(len(rays))).run(self.device, self.built)
 
-    def alone(self, precision: Precision, rays: NDArray[np.float32]) -> Hits:
-        """Return bernstein's answers to listed rays."""
-        if precision not in self.others:
-            made = self._program("bernstein", precision, "rays")
-            self.others[precision] = made, self.device.build(made)
-        program, built = self.others[precision]
+    def alone(self, precision: Precision, rays: NDArray[np.float32], **knobs: float) -> Hits:
+        """Return bernstein's answers to listed rays; `knobs` are of bernstein."""
+        made_for = precision, tuple(knobs.items())
+        if made_for not in self.others:
+            made = self._program("bernstein", precision, "rays", **knobs)
+            self.others[made_for] = made, self.device.build(made)
+        program, built = self.others[made_for]
         return ListedCheck(program, rays).run(self.device, [built])
 
 

@@ -1,6 +1,7 @@
 // Operations on lanes where one work item has all sixteen as one vector. Lane k is at (k & 3, k >> 2).
 #define wide(v) ((wide)(v))
 #define FUSED(a, b, c) fma(wide(a), b, c)
+#define PRODUCT_ERROR(a, b, product) fma(a, b, -(product))
 #define LESS(a, b) ((a) < (b))
 #define MORE(a, b) ((a) > (b))
 #define AT_MOST(a, b) ((a) <= (b))

@@ -3,6 +3,11 @@
 #define wide real
 #define yes bool
 #define FUSED(a, b, c) fma(wide(a), b, c)
+#ifdef __OPENCL_VERSION__
+#define PRODUCT_ERROR(a, b, product) fma(a, b, -(product))
+#else
+#define PRODUCT_ERROR(a, b, product) two_prod(a, b).lo
+#endif
 #define LESS(a, b) ((a) < (b))
 #define MORE(a, b) ((a) > (b))
 #define AT_MOST(a, b) ((a) <= (b))

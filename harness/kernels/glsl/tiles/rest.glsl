@@ -24,7 +24,7 @@ void cast_left(Work work) {
         real depth = middle + entry_at(work, at);
         real lower = depth / inner_product(ray.direction, normal);
         lower = max(lower - 8.0 * UNIT_ROUNDOFF * fabs(lower), real(0));
-        Cast result = cast_ray_between(ray, lower, REAL_INFINITY);
+        Cast result = cast_alone(ray, lower);
         int evaluations = result.hit.evaluations + (listed_left ? answered(work, place) >> 7 : 0);
         answer_pixel(work, place, result.shift, result.hit.t, answer_word(result.hit.status, 2 * LEVELS + 1, evaluations));
     }
