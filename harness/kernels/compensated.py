@@ -11,18 +11,18 @@ from harness.kernels.printing import function_text, nearest, number
 from surfaces.lowering import real_tape
 from surfaces.tape import Op
 
-HEAD = "WidePair compensated_value(WideVec3 o, wide shift, wide t, WideVec3 d)"
+HEAD = "WidePair compensated_value(WidePairs o, wide t, WideVec3 d)"
 _OPERATIONS = {"add": "wide_sum", "sub": "wide_difference", "mul": "wide_product", "sqr": "wide_square"}
 
 
 def compensated_value(surface: Surface, precision: Precision, language: Language) -> Section:
-    """Return f at o + (shift + t) d of each lane: WidePair compensated_value(o, shift, t, d).
+    """Return f at o + t d of each lane: WidePair compensated_value(WidePairs o, wide t, WideVec3 d).
 
     Constants have the digits of two numbers of the precision. Raises FirsthitError where f is no polynomial.
     """
     tape = real_tape(surfaces.tape_of(surface))
     printer = _Printer(precision, language)
-    points = [f"WidePair {axis} = wide_coordinate(o.{axis}, shift, t, d.{axis});" for axis in "xyz"]
+    points = [f"WidePair {axis} = wide_sum(o.{axis}, wide_two_prod(t, d.{axis}));" for axis in "xyz"]
     lines, value = printer.body(tape.ops, tape.outputs[0])
     text = function_text(HEAD, [*points, *lines], f"return {value};")
     return Section(f"generated: surface {surface.name}, compensated_value", text)

@@ -24,6 +24,7 @@ Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide sign, wi
     found.before = NOWHERE;
     found.behind = NOWHERE;
     found.evaluations = 0;
+    WidePairs origin = wide_far_point(o, shift, d);
     yes moving = looking;
     wide lo = from - FARTHEST * UNIT;
     wide hi = from + FARTHEST * UNIT;
@@ -33,7 +34,7 @@ Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide sign, wi
     wide t_before = from;
     wide f_before = wide(0.0);
     for (int k = 0; k < MOST_VALUES && any_lane(moving); k++) {
-        WidePair value = compensated_value(o, shift, t, d);
+        WidePair value = compensated_value(origin, t, d);
         wide f = value.hi + value.lo;
         found.evaluations += 1;
         yes beyond = MORE(f * sign, wide(0.0));  // the root is before t

@@ -63,11 +63,21 @@ WidePair wide_doubled(WidePair a, real c) {
     return wide_pair(c * a.hi, c * a.lo);
 }
 
-// Returns one coordinate of the point o + (shift + t) d.
-WidePair wide_coordinate(wide o, wide shift, wide t, wide d) {
-    WidePair far = wide_two_prod(shift, d);
-    WidePair near = wide_two_prod(t, d);
-    WidePair middle = wide_two_sum(o, far.hi);
-    WidePair point = wide_two_sum(middle.hi, near.hi);
-    return wide_pair(point.hi, (far.lo + near.lo) + (middle.lo + point.lo));
+// A point whose coordinates are such numbers.
+STRUCT(WidePairs) struct WidePairs { WidePair x; WidePair y; WidePair z; };
+
+// Returns o + t d, where o and t d may be far larger than their sum.
+WidePair wide_far_coordinate(wide o, wide t, wide d) {
+    WidePair product = wide_two_prod(t, d);
+    WidePair sum = wide_two_sum(o, product.hi);
+    WidePair whole = wide_two_sum(sum.hi, product.lo);
+    return wide_two_sum(whole.hi, whole.lo + sum.lo);
+}
+
+WidePairs wide_far_point(WideVec3 o, wide t, WideVec3 d) {
+    WidePairs p;
+    p.x = wide_far_coordinate(o.x, t, d.x);
+    p.y = wide_far_coordinate(o.y, t, d.y);
+    p.z = wide_far_coordinate(o.z, t, d.z);
+    return p;
 }
