@@ -187,3 +187,9 @@ ROUGH = ("torus", "barth_sextic", "heart", "limao", "endrass_octic")
 def test_errors_of_a_frame_are_no_larger_than_those_of_bernstein(name):
     found = compared(caster(surfaces.get(name)), View("v", azimuth=100, elevation=8), 256)
     assert max(found.ratios) <= 1.0, found
+
+
+def test_errors_are_small_where_the_eye_is_far_away():
+    surface = surfaces.get("torus")
+    found = compared(caster(surface), View("far", azimuth=30, elevation=35, distance=1e5, fov=0.002), 64)
+    assert found.rays > 500 and found.tiles[1] < 3e-7, found

@@ -301,7 +301,7 @@ def tile_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:
     divided among its pixels.
     """
     t, answer = outputs
-    with np.errstate(invalid="ignore"):  # t of a pixel without a hit is whatever lay in the buffer
+    with np.errstate(invalid="ignore", over="ignore"):  # t of a pixel without a hit is whatever lay in the buffer
         whole = t.astype(np.float64).reshape(len(answer), -1).sum(axis=1)
     hits = unpacked(whole, answer, answer & 3, answer >> 7)
     return hits, ((answer >> 2) & 31).astype(np.uint8)
