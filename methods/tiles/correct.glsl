@@ -9,12 +9,12 @@
 // before the root, and behind it.
 STRUCT(Corrected) struct Corrected { wide t; yes good; yes before; yes behind; int evaluations; };
 
-// Corrects the root `from` of f on the rays o + (shift + t) d. `sign` is that of f behind the root. The first step has the
-// inverse slope g, and the others are secants' within the bracket that f's signs give. Where there is no such step,
-// another point is taken on the root's side: SECANT units away, then twice as far, or the middle of the bracket.
+// Corrects the root `from` of f on the rays o + (shift + t) d, within [a, b]. `sign` is that of f behind the root. The first
+// step has the inverse slope g, and the others are secants' within the bracket that f's signs give. Where there is no such
+// step, another point is taken on the root's side: SECANT units away, then twice as far, or the middle of the bracket.
 // A step leaves the share of itself by which its inverse slope is wrong: `wrong` is that of g, and a secant's is what it
 // differs by from the one before.
-Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide sign, wide g, wide wrong,
+Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide a, wide b, wide sign, wide g, wide wrong,
                     yes looking) {
     real allowed = LEFT_OVER * max(TOLERANCE, FINEST * UNIT_ROUNDOFF) * (2.0 * DOMAIN_RADIUS);
     real away = SECANT * UNIT;
@@ -26,8 +26,8 @@ Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide sign, wi
     found.evaluations = 0;
     WidePairs origin = wide_far_point(o, shift, d);
     yes moving = looking;
-    wide lo = from - FARTHEST * UNIT;
-    wide hi = from + FARTHEST * UNIT;
+    wide lo = max(from - FARTHEST * UNIT, a);
+    wide hi = min(from + FARTHEST * UNIT, b);
     wide inverse = g;
     wide share = wrong;
     wide t = from;

@@ -5,7 +5,8 @@ and the coefficients are interpolated between them. Where all interpolated coeff
 ray of the tile has a root. Where they change sign once, each ray has exactly one, and it is refined with f itself.
 
 **Source** firsthit's own. It is made of these parts: beams that share the work of neighbouring rays (beamcasting); the
-isolation of bernstein; bicubic interpolation with a bound of its remainder; Newton's method on f itself.
+isolation of bernstein; bicubic interpolation with a bound of its remainder; Newton's method on f itself; compensated
+arithmetic (szente, and harness/kernels/glsl/tiles/compensated.glsl).
 
 **Theory** docs/tiles.md proves what the verdicts say. For a fixed depth the point on a ray is an affine function of the
 ray's place in the image. So f along all rays of a tile is a polynomial of depth and place, and what its interpolation
@@ -21,19 +22,21 @@ A frame takes four stages, and nothing comes back to the host between them:
    At the rim, where the domain cuts the surface, a single tile is searched behind its piece too.
 2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides, by
    its mean over FIRST_PAIRS pairs of points around the interpolated root. Where f at these is no line as far as
-   roundings tell, or the step is long, a few steps follow, and one by the mean over points around the root, as in
-   bernstein: over FIRST_PAIRS pairs, or over PAIRS where f at these is far from a line.
+   roundings tell (UNCERTAIN), Newton steps follow if the root is far away, and in the end f is computed with compensated
+   arithmetic, which keeps the rounding error of each operation: one step by such a value, or a few secants.
 3. packets: the open tiles' pixels, 4 by 4 together. Each has its own fit and verdict, and only the halving is shared.
 4. rest: what is still open, and roots whose last step leaves more than TOLERANCE, are cast by bernstein's kernel from
-   the depth on that is known to be empty.
+   the depth on that is known to be empty. Their roots are corrected by compensated values of f too.
 
 **What is promised** Verdicts of tiles hold for every ray wherever bernstein's promise holds. A hit is a place where the
-computed value of f changes its sign between two points at which it was evaluated, so false hits occur on drowned rays
-only.
+computed value of f, plain or compensated, changes its sign between two points at which it was evaluated, so false hits
+occur on drowned rays only.
 
 **Changes against the paper** There is no paper.
 
 **Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
+A compensated one counts once, and has five to six times the operations of a plain one; in GLSL, where fused products
+are not exact on every device, 13 times.
 
 **Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an Intel Xeon with
 AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run of four

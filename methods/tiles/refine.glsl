@@ -92,9 +92,9 @@ Refined refined(Pencil rays, wide from, wide a, wide b, wide slope, yes looking)
     // elsewhere rounding errors are kept out of f
     wide sign = CHOOSE(MORE(g, wide(0.0)), wide(1.0), wide(-1.0));
     wide wrong = near.bends * (0.5 / reach);
-    Corrected exact = corrected(rays.eye, rays.shift, rays.d, result.t, sign, g, wrong, looking);
+    Corrected exact = corrected(rays.eye, rays.shift, rays.d, result.t, a, b, sign, g, wrong, looking);
     result.evaluations += exact.evaluations;
-    result.t = CHOOSE(exact.good, clamp(exact.t, a, b), result.t);
+    result.t = CHOOSE(exact.good, exact.t, result.t);
     yes seen = BOTH(EITHER(seen_before, exact.before), EITHER(seen_behind, exact.behind));
     if (any_lane(BOTH(looking, NOT(seen)))) {
         wide other = wide_value(wide_point(rays.o, CHOOSE(seen_before, b, a), rays.d));

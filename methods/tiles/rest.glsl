@@ -3,7 +3,8 @@ Cast cast_alone(Ray ray, real lower) {
     Cast result = cast_ray_between(ray, lower, REAL_INFINITY);
     if (result.hit.status != HIT) return result;
     Ray own = advanced_ray(ray, result.shift);
-    real start = max(own_span(ray, own, result.shift).lo, lower - result.shift);
+    Span span = own_span(ray, own, result.shift);
+    real start = max(span.lo, lower - result.shift);
     real sign = surface_value(ray_point(own, start)) > 0.0 ? real(-1) : real(1);
     WideVec3 o;
     WideVec3 d;
@@ -13,7 +14,7 @@ Cast cast_alone(Ray ray, real lower) {
     d.x = ray.direction.x;
     d.y = ray.direction.y;
     d.z = ray.direction.z;
-    Corrected found = corrected(o, result.shift, d, result.hit.t, sign, 0.0, 1.0, true);
+    Corrected found = corrected(o, result.shift, d, result.hit.t, start, span.hi, sign, 0.0, 1.0, true);
     result.hit.evaluations += 1 + found.evaluations;
     if (found.good) result.hit.t = found.t;
     return result;
