@@ -159,8 +159,9 @@ class Method:
     casts: what the kernel defines. "rays": `Hit first_hit(Ray, real t0, real t1)`. "beams" and "quadtree":
         `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "tiles":
         `void isolate_tiles(Work, Frame)`, `void finish_tiles(Work, Frame)` and `void cast_packets(Work, Frame)`, the
-        stages of a frame, each of which takes tiles of pixels until there are none (harness.kernels.tiles); a stage may
-        stand in a file of its own, isolate.glsl, finish.glsl or packets.glsl, which is put behind kernel.glsl. "mesh":
+        stages of a frame, each of which takes tiles of pixels until there are none (harness.kernels.tiles). A stage may
+        have files of its own behind kernel.glsl, see harness.kernels.sections.STAGE_FILES: one that is named as it is,
+        and those that it shares with other stages. rest.glsl defines `Cast cast_alone(Ray, real lower)`. "mesh":
         `vec3 mesh_normal(vec3)`, for triangles that are rasterised in place of rays
     rest: of a method that casts tiles, the method of this project whose kernel casts the rays that no tile decides; it
         is given this method's own knobs and tables

@@ -40,45 +40,46 @@ are not exact on every device, 13 times.
 
 **Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an Intel Xeon with
 AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run of four
-sizes at 944c09f, nothing beside it. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384
+sizes at b7d74c64. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384
 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel;
 newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays. Ratios are
 of the rounds that timed both, and times are medians of all rounds.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
-    clebsch       3.05   10.4       9.8         5.64    3.21            3.03             0.599
-    tangle        4.16   15.6       15          9.68    3.57            3.46             0.723
-    torus         3.77   11         11.9        4.73    2.87            3.12             0.529
-    Kummer        6.68   22.2       18.9        10.7    3.25            2.83             0.674
-    flirt         4.8    15.7       15.3        9.44    3.29            3.22             0.99
-    calyx         6.94   16.6       17.9        11      2.41            2.57             0.472
-    Barth sextic  6.79   21         28.2        14      3.15            4.31             1.06
-    Klein bottle  4.24   16.2       21.6        11.4    3.84            5.11             0.935
-    heart         5.47   17.3       24.6        12.2    3.17            4.49             0.742
-    chmutov       9.87   19.5       32          7.98    2.09            3.42             0.467
-    Endraß octic  19.9   41.1       71          22.5    2.06            3.69             0.711
-    Barth decic   18.6   41.7       89.1        24.3    2.39            5.11             0.533
-    16-ball       17     72.6       235         13.1    4.12            13.8             1.07
+    clebsch       2.87   9.39       8.95        4.96    3.19            3.01             0.191
+    tangle        4.38   16.3       15.6        10.1    3.7             3.56             0.175
+    torus         4.21   11.7       12.4        4.81    2.54            2.68             0.104
+    Kummer        7.18   16.2       15.4        9.23    2.93            2.77             0.127
+    flirt         4.19   13.4       13.6        8.49    3.3             3.27             0.583
+    calyx         5.45   14.1       15          9.26    2.59            2.71             0.0869
+    Barth sextic  5.64   18.1       24.5        12.3    3.22            4.34             0.0905
+    Klein bottle  3.31   12.9       17.2        9.33    3.92            5.22             0.227
+    heart         4.02   13.5       19.7        11      3.32            4.63             0.238
+    chmutov       7.14   15.5       27.4        6.62    2.17            3.8              0.065
+    Endraß octic  18.1   35         61.2        20.6    2.06            3.6              0.0598
+    Barth decic   16.1   39.6       86          22.6    2.43            5.35             0.0597
+    16-ball       12     52.5       182         10.3    4.24            14               0.766
 
 The larger the frame, the more it gains. Geometric means of the thirteen surfaces:
 
     pixels     over bernstein  least of them  over eft_yuksel  over newton
     ---------  --------------  -------------  ---------------  -----------
-    512x512    2.02            1.43           2.65             1.06
-    1024x1024  2.97            2.06           4.00             1.57
-    2048x2048  3.78            2.80           5.21             2.03
-    4096x4096  4.40            3.42           5.70             2.60
+    512x512    2.02            1.52           2.66             1.07
+    1024x1024  2.98            2.06           4.04             1.60
+    2048x2048  3.74            2.65           5.18             2.02
+    4096x4096  4.19            3.08           5.87             2.28
 
-Its time grows as the pixels to the power 0.76 in the mean (0.65 16-ball to 0.86 torus), bernstein's to the power 0.95.
-37 of the run's 260 cells drifted and 7 were noisy. On two cores of an AMD processor without AVX-512 the means
-over bernstein were 2.29, 3.35, 4.06 and 4.31 at these sizes, and over eft_yuksel 2.75, 4.07, 5.04 and 5.42, at 1fe7ee7,
-before the rows "a work item takes" and "whether a mask holds" below.
+Its time grows as the pixels to the power 0.79 in the mean (0.68 sextic to 0.89 16-ball), bernstein's to the power 0.96.
+49 of the run's 260 cells drifted and 16 were noisy. The same run at 206c8d87, the commit before, in which 12 drifted and 4
+were noisy, gave 2.13, 3.05, 3.79 and 4.25 over bernstein, and 2.83, 4.17, 5.26 and 5.99 over eft_yuksel. On two cores of an AMD processor
+without AVX-512 the means over bernstein were 2.29, 3.35, 4.06 and 4.31 at these sizes, and over eft_yuksel 2.75, 4.07,
+5.04 and 5.42, at 1fe7ee7, before the rows "a work item takes" and "whether a mask holds" below.
 
-On opencl:pocl, there too, configs/tiles-1024.toml gave 11.8 over bernstein (8.05 octic to 16.6 tangle), 14.3 over
-eft_yuksel and 6.07 over newton. At a8430e6, before these two rows, configs/tiles.toml gave 13.9 over bernstein (9.05 at
-least) and 17.0 over eft_yuksel at 2048x2048, and 16.4 (11.2) and 19.8 at 4096x4096. No clear ray of tiles, bernstein
-and eft_yuksel is wrong.
+On opencl:pocl, there too and at b7d74c64, configs/tiles-1024.toml gave 11.1 over bernstein (7.56 octic to 16.7 16-ball),
+13.8 over eft_yuksel and 6.07 over newton. At a8430e6, before the rows "f with compensated arithmetic" and "a work item
+takes", configs/tiles.toml gave 13.9 over bernstein (9.05 at least) and 17.0 over eft_yuksel at 2048x2048, and 16.4 (11.2)
+and 19.8 at 4096x4096. No clear ray of tiles, bernstein and eft_yuksel is wrong.
 
 What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
 LEANS were chosen on nine of these surfaces in this view.
@@ -104,21 +105,18 @@ LEANS were chosen on nine of these surfaces in this view.
       tables first up to degree 8 (this row and the next    alone from 0.56 (clebsch) to 0.7 (chmutov)
       three: interleaved runs on a busy machine)
     coarser tables first at every degree                    16-ball's isolation: 1.17 times the time            no
-    the mean of f over 8 pairs at uncertain roots, and      the frames: 1.02 times the time; the errors' 99.9   yes
-      f's slope there held against the interpolated one     % over bernstein's: 1.03 to 0.85
     what is behind a tile's open piece is searched, so      octic: packets 0.96 times the time, isolation 1.1   no
       that packets may end there                            times; the frames: 1.02
     fewer divisions at each pixel, comparisons that are     finish: 0.85 times the time; the nine frames: 0.96  yes
       operators, fused multiply-adds in points, fits and
-      interpolations (this row and those down to APART:
-      processor time, interleaved, on a busy machine)
+      interpolations (this row and those down to
+      "begin a piece earlier": processor time,
+      interleaved, on a busy machine)
     FIRST_PAIRS = 1: two of the five evaluations of most    four surfaces: 0.95 times the time; the errors'     no
       pixels less                                           99.9 % over bernstein's in 40 views: 0.79 to 0.87
     STEP = 2^-16                                            frames 1.01 times the time                          no
     no first level: tiles of 8 pixels alone, where that     octic 0.99 times the time, decic 1.03: the first    no
       of 16 decides least (0.57 of the pixels)              level pays or is even on all nine surfaces
-    APART = 4, as in bernstein, in place of 2               largest error over bernstein's, 320 views of five   yes
-                                                            surfaces: 0.91 to 0.85; no other time
     pixels cast by themselves begin a piece earlier         largest error: heart 3 times as large, Cayley's     no
                                                             0.5 times
     a tile at the domain's rim is searched behind its       flirt 0.73, Kummer 0.89, clebsch 0.90, torus 1.02   yes
@@ -138,10 +136,16 @@ LEANS were chosen on nine of these surfaces in this view.
       value of f and another by a mean                      %), 0.77 to 0.76 (largest)
     rays that keep their depth as parameter, and have no    torus and clebsch, busy machine: refinement 0.96    no
       direction of length 1                                 and 0.98 of the time
-    PAIRS = 16 in place of 8 (this row and the next four:   six surfaces: 1.01 times the time; errors over      yes
-      a Xeon with AVX-512, interleaved)                     bernstein's in 60 views: 0.80 to 0.76 (99.9 %),
-                                                            0.87 to 0.77 (largest)
-    PAIRS = 32                                              1.03 times the time; 0.74 and 0.73                  no
+    f with compensated arithmetic where roundings hide the  nine surfaces: 0.99 times the time (torus 1.12,     yes
+      root, in place of means over 16 pairs (this row and   chmutov 0.75); errors over bernstein's in 150
+      the next six: a Xeon with AVX-512, interleaved)       views: 0.76 to 0.08 (99.9 %), 0.70 to 0.02
+                                                            (largest)
+    UNCERTAIN = 4 in place of 2                             0.97 times the time; errors over bernstein's in 54  no
+                                                            views of nine other surfaces: 0.34 to 0.49, 0.11
+                                                            to 0.20, and one of them above 1
+    means over 8, 16 and 32 pairs at uncertain roots, and   1, 1.01 and 1.03 times the time; errors over        no
+      no compensated value                                  bernstein's in 60 views: 0.80, 0.76 and 0.74
+                                                            (99.9 %), 0.87, 0.77 and 0.73 (largest)
     a work item takes up to 16 tiles from the counter that  torus: isolation 0.75, frame 0.88 times the time;   yes
       all share, and empty tiles are answered by vectors    octic's frame 0.95
     whether a mask holds in any lane is asked by the        torus and octic, with the row before: frame 0.81    yes
