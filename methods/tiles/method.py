@@ -22,8 +22,8 @@ A frame takes four stages, and nothing comes back to the host between them:
    At the rim, where the domain cuts the surface, a single tile is searched behind its piece too.
 2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides, by
    its mean over FIRST_PAIRS pairs of points around the interpolated root. Where f at these is no line as far as
-   roundings tell (UNCERTAIN), Newton steps follow if the root is far away, and in the end f is computed with compensated
-   arithmetic, which keeps the rounding error of each operation: one step by such a value, or a few secants.
+   roundings tell (UNCERTAIN), Newton steps follow if the root is far away, and in the end f is computed with
+   compensated arithmetic, which keeps the rounding error of each operation: one step by such a value, or a few secants.
 3. packets: the open tiles' pixels, 4 by 4 together. Each has its own fit and verdict, and only the halving is shared.
 4. rest: what is still open, and roots whose last step leaves more than TOLERANCE, are cast by bernstein's kernel from
    the depth on that is known to be empty. Their roots are corrected by compensated values of f too.
@@ -40,10 +40,10 @@ are not exact on every device, 13 times.
 
 **Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores of an Intel Xeon with
 AVX-512: `firsthit run configs/tiles.toml --device opencl:intel` with prepass = ["none"], one interleaved run of four
-sizes at b7d74c64. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384
-rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel;
-newton is wrong on 1,538. `largest` is the largest error of tiles over that of bernstein on the same rays. Ratios are
-of the rounds that timed both, and times are medians of all rounds.
+sizes at b7d74c64. `python -m tests.benchmarks.tile_speed runs/tiles` prints these figures. 16,384 rays of each surface
+are held against the oracle: no clear ray is wrong, of tiles nor of bernstein and eft_yuksel; newton is wrong on 1,538.
+`largest` is the largest error of tiles over that of bernstein on the same rays. Ratios are of the rounds that timed
+both, and times are medians of all rounds.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
@@ -71,15 +71,16 @@ The larger the frame, the more it gains. Geometric means of the thirteen surface
     4096x4096  4.19            3.08           5.87             2.28
 
 Its time grows as the pixels to the power 0.79 in the mean (0.68 sextic to 0.89 16-ball), bernstein's to the power 0.96.
-49 of the run's 260 cells drifted and 16 were noisy. The same run at 206c8d87, the commit before, in which 12 drifted and 4
-were noisy, gave 2.13, 3.05, 3.79 and 4.25 over bernstein, and 2.83, 4.17, 5.26 and 5.99 over eft_yuksel. On two cores of an AMD processor
-without AVX-512 the means over bernstein were 2.29, 3.35, 4.06 and 4.31 at these sizes, and over eft_yuksel 2.75, 4.07,
-5.04 and 5.42, at 1fe7ee7, before the rows "a work item takes" and "whether a mask holds" below.
+49 of the run's 260 cells drifted and 16 were noisy. The same run at 206c8d87, the commit before, in which 12 drifted
+and 4 were noisy, gave 2.13, 3.05, 3.79 and 4.25 over bernstein, and 2.83, 4.17, 5.26 and 5.99 over eft_yuksel. On two
+cores of an AMD processor without AVX-512 the means over bernstein were 2.29, 3.35, 4.06 and 4.31 at these sizes, and
+over eft_yuksel 2.75, 4.07, 5.04 and 5.42, at 1fe7ee7, before the rows "a work item takes" and "whether a mask holds"
+below.
 
-On opencl:pocl, there too and at b7d74c64, configs/tiles-1024.toml gave 11.1 over bernstein (7.56 octic to 16.7 16-ball),
-13.8 over eft_yuksel and 6.07 over newton. At a8430e6, before the rows "f with compensated arithmetic" and "a work item
-takes", configs/tiles.toml gave 13.9 over bernstein (9.05 at least) and 17.0 over eft_yuksel at 2048x2048, and 16.4 (11.2)
-and 19.8 at 4096x4096. No clear ray of tiles, bernstein and eft_yuksel is wrong.
+On opencl:pocl, there too and at b7d74c64, configs/tiles-1024.toml gave 11.1 over bernstein (7.56 octic to 16.7
+16-ball), 13.8 over eft_yuksel and 6.07 over newton. At a8430e6, before the rows "f with compensated arithmetic" and "a
+work item takes", configs/tiles.toml gave 13.9 over bernstein (9.05 at least) and 17.0 over eft_yuksel at 2048x2048, and
+16.4 (11.2) and 19.8 at 4096x4096. No clear ray of tiles, bernstein and eft_yuksel is wrong.
 
 What is known of the errors is in docs/tiles.md, "Errors beside bernstein's". The knobs AHEAD, PACKET_FITS, REFITS and
 LEANS were chosen on nine of these surfaces in this view.
