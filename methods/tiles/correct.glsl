@@ -9,9 +9,10 @@
 // before the root, and behind it.
 STRUCT(Corrected) struct Corrected { wide t; yes good; yes before; yes behind; int evaluations; };
 
-// Corrects the root `from` of f on the rays o + (shift + t) d, within [a, b]. `sign` is that of f behind the root. The first
-// step has the inverse slope g, and the others are secants' within the bracket that f's signs give. Where there is no such
-// step, another point is taken on the root's side: SECANT units away, then twice as far, or the middle of the bracket.
+// Corrects the root `from` of f on the rays o + (shift + t) d, within [a, b]. `sign` is that of f behind the root. A step
+// with the inverse slope g ends it, if that leaves little. Else the second point is SECANT units away on the root's side,
+// and the next ones are secants' within the bracket that f's signs give. Where a secant leads out of it, the next point is
+// twice as far away as before, or the middle of the bracket.
 // A step leaves the share of itself by which its inverse slope is wrong: `wrong` is that of g, and a secant's is what it
 // differs by from the one before.
 Corrected corrected(WideVec3 o, wide shift, WideVec3 d, wide from, wide a, wide b, wide sign, wide g, wide wrong,
